@@ -6,7 +6,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <memory>
 #include <optional>
+#include <random>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -295,6 +298,49 @@ void add_growth(const char* model, std::size_t beads) {
   }
 }
 
+// Atoms of a fluid as dense as water in a periodic cell. In a step they move as far as atoms of water do in
+// 20 fs at 300 K. A contact is a distance of at most 3.5 angstrom.
+Scene fluid_in_a_cell(std::size_t atoms) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  constexpr double spacing = 2.154, jitter = 0.3,
+                   move = 0.1;  // angstrom; a tenth of an atom a cubic angstrom
+  const double per_side = std::ceil(std::cbrt(static_cast<double>(atoms)));
+  Trajectory fluid;
+  fluid.file = "a fluid in a cell";
+  Eigen::Matrix3Xd at(3, static_cast<Eigen::Index>(atoms)), velocity = at;
+  for (Eigen::Index atom = 0; atom < at.cols(); ++atom) {
+    double rest = static_cast<double>(atom);
+    for (double& x : at.col(atom)) {
+      x = spacing * std::fmod(rest, per_side) + jitter * normal(random);
+      rest = std::floor(rest / per_side);
+    }
+    for (double& v : velocity.col(atom)) v = move * normal(random);
+  }
+  for (int frame = 0; frame < 2; ++frame) fluid.frames.emplace_back(at + frame * velocity);
+  fluid.cells.assign(2, spacing * per_side * Cell::Identity());
+  return {std::span(&fluid, 1), std::vector<double>(atoms, 1.75)};
+}
+
+// A step with all its exact events, beside a search of the pairs of one frame by a cell list, without walls.
+void add_fluid(std::size_t atoms) {
+  const auto scene = lazily([atoms] { return fluid_in_a_cell(atoms); });
+  const std::string measure = fmt::format("collision/fluid/{}/contacts in a cell", atoms);
+  add(measure, [=] {
+    return TimedWork{atoms, "ns/bead", [scene] {
+                       KineticRun run(scene(), {.structures = {"contacts"}, .settings = {.apart = 1}});
+                       run.build();
+                       return processor_seconds_of([&] { run.finish(); });
+                     }};
+  });
+  add(measure + " beside cell list of a frame", [=] {
+    const auto balls = std::make_shared<Balls<3>>(scene().centers(0), scene().radii());
+    const auto cells =
+        std::make_shared<CellList<3>>(PairsAsked{{{0, static_cast<BeadId>(atoms - 1)}}, true, 1, true});
+    return Work{atoms, "ns/bead", [=] { benchmark::DoNotOptimize(cells->pairs(*balls).data()); }};
+  });
+}
+
 }  // namespace
 
 void add_collision() {
@@ -304,6 +350,7 @@ void add_collision() {
   for (const std::filesystem::path& path : trajectories()) add_protein(path);
   add_far(102400);
   for (const char* model : {"helix", "random-chain"}) add_growth(model, 102400);
+  for (const std::size_t atoms : {10000U, 100000U, 1000000U}) add_fluid(atoms);
 }
 
 }  // namespace kds::bench
