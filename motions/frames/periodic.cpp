@@ -326,6 +326,14 @@ WholeChain::Outcome WholeChain::make_whole(Frame frame, const Images& images) {
   return joined ? Outcome::joined : all == start_ ? Outcome::unmoved : Outcome::shifted;
 }
 
+Cell continued(const Cell& cell, const Cell& before) {
+  Eigen::FullPivLU<Cell> lu(cell);
+  if (!lu.isInvertible()) return cell;
+  const Cell multiples = lu.solve(before).array().round().matrix();
+  if (multiples == Cell::Identity() || std::abs(std::abs(multiples.determinant()) - 1) > 0.5) return cell;
+  return cell * multiples;
+}
+
 void UnwrappedBeads::follow(WholeChain::Frame frame, const Cell& cell) {
   const Images images(cell);
   if (last_.cols() != frame.cols()) {
@@ -342,7 +350,7 @@ void UnwrappedBeads::follow(WholeChain::Frame frame, const Cell& cell) {
 }
 
 bool are_strewn(const Eigen::Ref<const Eigen::Matrix3Xd>& beads, const Cell& cell) {
-  if (beads.cols() < 3) return false;
+  if (beads.cols() < 8) return false;  // too few to tell
   const Images images(cell);
   std::vector<double> lengths;
   for (Eigen::Index i = 1; i < beads.cols(); ++i) {
@@ -351,7 +359,7 @@ bool are_strewn(const Eigen::Ref<const Eigen::Matrix3Xd>& beads, const Cell& cel
   }
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
-  return 4 * *middle > images.reduced().col(0).norm();
+  return 3 * *middle > images.reduced().col(0).norm();
 }
 
 }  // namespace kds

@@ -136,6 +136,11 @@ class WholeChain {
   Eigen::Vector3d start_ = Eigen::Vector3d::Zero();
 };
 
+/// Returns the vectors of the same lattice that are nearest to those of the frame before. Programs let the
+/// tilt of a cell jump by a whole vector; these vectors go on without a jump. Returns a cell that does not
+/// jump unchanged, and so a cell that is periodic along fewer than three vectors.
+[[nodiscard]] Cell continued(const Cell& cell, const Cell& before);
+
 /// Follows single beads through the frames: a bead moves to the image nearest to where it was in the frame
 /// before, whatever the cell does in between. Beads of the first frame stay where they are. Each bead is
 /// moved by whole cell vectors of the present frame, in one rounding.
@@ -151,7 +156,7 @@ class UnwrappedBeads {
 };
 
 /// Returns whether consecutive beads lie as far from each other as beads of a fluid do: the median of their
-/// distances across the walls is more than a quarter of the lattice's shortest vector.
+/// distances across the walls is more than a third of the lattice's shortest vector.
 [[nodiscard]] bool are_strewn(const Eigen::Ref<const Eigen::Matrix3Xd>& beads, const Cell& cell);
 
 }  // namespace kds

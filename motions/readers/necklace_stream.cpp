@@ -163,6 +163,7 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
   find_pieces();
   is_strewn_ = !options.unwrap && is_no_chain(first);
   unwrap_ = options.unwrap.value_or(is_strewn_ ? Unwrap::beads : Unwrap::chains);
+  if (is_strewn_) opened_.chain_like = false;
   if (unwrap_ == Unwrap::chains) place(first);
   drop_guides(first.positions);
   Eigen::Index begin = 0;
@@ -431,6 +432,8 @@ bool NecklaceStream::read(FrameRead& frame) {
     check_finite(opened_.file, frame);
     check_bead_count(frame);
     judge_cell(frame);
+    if (frame.cell && last_cell_) frame.cell = continued(*frame.cell, *last_cell_);
+    last_cell_ = frame.cell;
     follow(frame);
     if (frame.asked) break;
   }
@@ -449,6 +452,7 @@ bool NecklaceStream::read(FrameRead& frame) {
 void NecklaceStream::rewind() {
   opened_.frames->rewind();
   paths_.restart();
+  last_cell_.reset();
   for (Piece& piece : pieces_) {
     piece.whole.restart();
     piece.apart_at_first.reset();
@@ -495,9 +499,9 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
   lines.insert(lines.end(), notes.placed.begin(), notes.placed.end());
   if (is_strewn_ && necklace == 0)
     lines.push_back(
-        fmt::format("{}: names no molecules, and beads that follow one another are strewn over the cell, so "
-                    "each bead moves "
-                    "to its nearest image alone ({} chains joins them)",
+        fmt::format("{}: names no molecules, and consecutive beads are as far apart as in a fluid, so each "
+                    "bead moves alone to "
+                    "its nearest image ({} chains follows bonds)",
                     head.file, "--unwrap"_arg));
   if (notes.pieces_left > 0 && frames_with_cell_ > 0 && unwrap_ == Unwrap::chains)
     lines.push_back(fmt::format(

@@ -62,16 +62,19 @@ bool FileFrames::next(FrameRead& frame) {
   return true;
 }
 
-std::optional<Cell> FileFrames::common_cell() const {
-  std::optional<Cell> cell;
-  bool first = true;
+std::optional<Cell> FileFrames::common_cell() {
+  std::optional<std::size_t> first;
   for (std::size_t f = 0; f < files_.size(); ++f) {
     if (at_rest_[f]) continue;
-    if (!first && present_[f].cell != cell) return std::nullopt;
-    cell = present_[f].cell;
-    first = false;
+    first = first.value_or(f);
+    if (present_[f].cell == present_[*first].cell) continue;
+    if (cells_differ_.empty())
+      cells_differ_ = fmt::format(
+          "{}: frame {}: its periodic cell is not that of {}, so beads have no images across the walls",
+          files_[f].heads().front().file, present_[f].stamp.number, files_[*first].heads().front().file);
+    return std::nullopt;
   }
-  return cell;
+  return first ? present_[*first].cell : std::nullopt;
 }
 
 FrameStamp FileFrames::stamp() {
@@ -107,6 +110,7 @@ void FileFrames::seek(std::size_t k) {
     for (NecklaceStream& file : files_) file.rewind();
     std::fill(read_.begin(), read_.end(), 0);
     next_ = times_differ_ = 0;
+    cells_differ_.clear();
   }
   FrameRead passed;
   while (next_ < k && next(passed)) {
@@ -130,6 +134,7 @@ std::vector<std::string> FileFrames::warnings() const {
   if (times_differ_ > 0)
     lines.push_back(fmt::format("{} ({}; {} PS replaces times)", first_difference_,
                                 counted(times_differ_, "frame"), "--dt"_arg));
+  if (!cells_differ_.empty()) lines.push_back(cells_differ_);
   add_nearer_images(lines);
   for (const NecklaceStream& file : files_)
     for (std::size_t n = 0; n < file.heads().size(); ++n)

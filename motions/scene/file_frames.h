@@ -47,8 +47,9 @@ class FileFrames final : public FrameSource {
   /// Returns the number and the time of the present frame: those of the first file that moves. If this file
   /// has no time, another moving file gives the time. Notes times that differ.
   [[nodiscard]] FrameStamp stamp();
-  /// Returns the cell that all files that move have in the present frame, if they have one in common.
-  [[nodiscard]] std::optional<Cell> common_cell() const;
+  /// Returns the cell that all files that move have in the present frame. If only some files have a cell, or
+  /// cells differ, returns nothing and notes it.
+  [[nodiscard]] std::optional<Cell> common_cell();
 
   std::vector<NecklaceStream> files_;
   std::vector<NecklaceBeads> necklaces_;
@@ -62,6 +63,7 @@ class FileFrames final : public FrameSource {
   std::string early_end_;                         ///< about frames left out after a truncated file's last one
   std::size_t times_differ_ = 0;                  ///< frames with different times in two files
   std::string first_difference_;                  ///< about the first of these
+  std::string cells_differ_;                      ///< about the first frame whose cells differ
 };
 
 }  // namespace kds

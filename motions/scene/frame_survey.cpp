@@ -117,7 +117,7 @@ void CellSurvey::add(const FrameRead& frame) {
   alike_ = alike_ && spans == *spans_;
   for (std::size_t across = 0; across < 3; ++across)
     if (!plane_across(across).laid(*frame.cell)) in_plane_[across] = false;
-  if (last_.cols() == frame.positions.cols()) {
+  if (last_.cols() == frame.positions.cols() && frame.stamp.number == last_number_ + 1) {
     const double shortest = Images(*frame.cell).reduced().col(0).norm();
     for (Eigen::Index bead = 0; bead < last_.cols(); ++bead) {
       const double length = (frame.positions.col(bead) - last_.col(bead)).norm();
@@ -127,6 +127,7 @@ void CellSurvey::add(const FrameRead& frame) {
     }
   }
   last_ = frame.positions;
+  last_number_ = frame.stamp.number;
 }
 
 bool CellSurvey::is_periodic(const std::optional<AxisPlane>& plane) const {
@@ -134,34 +135,29 @@ bool CellSurvey::is_periodic(const std::optional<AxisPlane>& plane) const {
   return !plane || in_plane_[static_cast<std::size_t>(plane->axes[2])];
 }
 
+std::string CellSurvey::why_not() const {
+  if (with_cell_ == 0) return "";
+  if (without_cell_ > 0)
+    return fmt::format("{} of the run {} no cell that all inputs share", counted(without_cell_, "frame"),
+                       without_cell_ == 1 ? "has" : "have");
+  return alike_ ? "a cell vector lies askew to the plane of the beads"
+                : "frames differ in which vectors of the cell are periodic";
+}
+
 namespace {
 
-// Says which beads move too far to know their path, and where images of beads count for nothing.
-void warn_of_cells(const CellSurvey& cells, const FrameSurvey& survey,
-                   const std::vector<NecklaceBeads>& necklaces,
-                   const std::function<void(const std::string&)>& warn) {
-  const std::string& file = necklaces.front().file;
-  if (!survey.periodic) {
-    warn(fmt::format(
-        "{}: contacts across the walls of the cell are not found, because {}", file,
-        cells.without_cell() > 0
-            ? counted(cells.without_cell(), "frame") + " of the run " +
-                  (cells.without_cell() == 1 ? "has" : "have") + " no cell that all inputs share"
-            : "cells differ in which vectors are periodic, or lie askew to the plane of the beads"));
-    return;
-  }
-  const FarMoves& far = cells.far_moves();
-  if (far.count == 0) return;
-  const std::vector<std::string> names = names_of_beads(necklaces);
-  const std::string name = far.first_bead < names.size() && !names[far.first_bead].empty()
-                               ? fmt::format(" ({})", names[far.first_bead])
-                               : "";
-  warn(
-      fmt::format("{}: frame {}: bead {}{} has moved {:.4g} since the frame before, more than half of the "
-                  "cell's shortest "
-                  "vector ({:.4g}), so its path is a guess ({})",
-                  file, far.first_frame, far.first_bead, name, far.length, far.half_cell,
-                  counted(far.count, "such move")));
+// Describes the moves whose path is a guess.
+std::string described(const FarMoves& far, const std::vector<NecklaceBeads>& necklaces) {
+  std::size_t bead = far.first_bead;
+  auto necklace = necklaces.begin();
+  for (; bead >= necklace->count; ++necklace) bead -= necklace->count;
+  const std::string name = necklace->names.empty() ? "" : fmt::format(" ({})", necklace->names[bead]);
+  return fmt::format(
+      "{}: frame {}: bead {}{} has moved {:.4g} since the frame before, more than half of the cell's "
+      "shortest "
+      "vector ({:.4g}), so its path is a guess ({})",
+      necklace->file, far.first_frame, far.first_bead, name, far.length, far.half_cell,
+      counted(far.count, "such move"));
 }
 
 }  // namespace
@@ -196,10 +192,11 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   survey.truncated = frames.is_truncated();
   survey.plane = planes.plane();
   survey.periodic = cells.is_periodic(survey.plane);
+  if (!survey.periodic) survey.lacks_images = cells.why_not();
   if (!doubt.empty()) warn(doubt);
   if (warn)
     for (const std::string& line : frames.warnings()) warn(line);
-  if (warn && cells.any()) warn_of_cells(cells, survey, necklaces, warn);
+  if (warn && survey.periodic && cells.far_moves().count > 0) warn(described(cells.far_moves(), necklaces));
   frames.seek(0);
   return survey;
 }

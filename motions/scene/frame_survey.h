@@ -55,8 +55,9 @@ class LongestBond {
   double radius_ = 0;
 };
 
-/// Moves of single beads, from one frame to the next, that are longer than half of the shortest vector of the
-/// cell's lattice. Another image of the bead may be as near, so the path between the frames is a guess.
+/// Moves of single beads, from one frame of the file to the next, that are longer than half of the shortest
+/// vector of the cell's lattice. Another image of the bead may be as near, so the path between the frames is
+/// a guess. With a stride there are none, because images follow through the frames between.
 struct FarMoves {
   std::size_t count = 0;
   std::size_t first_frame = 0;  ///< number in the file of the frame after the first of them
@@ -71,9 +72,8 @@ class CellSurvey {
   void add(const FrameRead& frame);
   /// Returns whether all frames are periodic along the same vectors, and, for a planar scene, in its plane.
   [[nodiscard]] bool is_periodic(const std::optional<AxisPlane>& plane) const;
-  /// Returns whether any frame has a cell.
-  [[nodiscard]] bool any() const { return with_cell_ > 0; }
-  [[nodiscard]] std::size_t without_cell() const { return without_cell_; }
+  /// Returns why not, or an empty text if no frame has a cell.
+  [[nodiscard]] std::string why_not() const;
   [[nodiscard]] const FarMoves& far_moves() const { return far_; }
 
  private:
@@ -82,6 +82,7 @@ class CellSurvey {
   bool alike_ = true;                               // all cells have these
   std::array<bool, 3> in_plane_{true, true, true};  // for each axis: cells lie in the plane across it
   Eigen::Matrix3Xd last_;                           // positions of the frame before
+  std::size_t last_number_ = 0;                     // number of that frame in the file
   FarMoves far_;
 };
 
@@ -92,8 +93,9 @@ struct FrameSurvey {
   Eigen::Matrix3Xd first_positions;
   std::optional<AxisPlane> plane;
   LongestBond bonds;  ///< empty unless requested
-  /// All frames have a cell that the scene can use: beads have images, and contacts are of nearest images.
+  /// All frames have a cell that the scene can use, so beads have images.
   bool periodic = false;
+  std::string lacks_images = {};  ///< why beads have no images, if any frame has a cell; for messages
 };
 
 /// Reads all frames and starts again at the first. Passes the source's warnings to `warn`. Throws InputError

@@ -55,6 +55,7 @@ void Scene::take(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey,
   bead_groups_ = kds::bead_groups(necklaces);
   truncated_ = survey.truncated;
   periodic_ = survey.periodic;
+  lacks_images_ = survey.lacks_images;
   plane_ = survey.plane.value_or(AxisPlane{});
   steps_ = std::make_unique<DiscreteStepAdapter>(std::move(frames), survey, motion);
 }

@@ -95,6 +95,8 @@ class Scene {
   /// Returns whether all beads lie in a periodic cell, so that they have images in each step
   /// (FrameSurvey::periodic).
   [[nodiscard]] bool is_periodic() const { return periodic_; }
+  /// Returns why beads have no images although frames have cells (FrameSurvey::lacks_images).
+  [[nodiscard]] const std::string& lacks_images() const { return lacks_images_; }
   /// Returns whether frames are missing at the end of the input (FrameSource::is_truncated).
   [[nodiscard]] bool is_truncated() const { return truncated_; }
   /// Returns a frame's number in the file and its time, for messages and results.
@@ -184,6 +186,7 @@ class Scene {
   bool has_radii_ = true;
   bool truncated_ = false;
   bool periodic_ = false;
+  std::string lacks_images_;
   AxisPlane plane_;  // the plane of a planar scene; else the input's own axes
   std::unique_ptr<StepSource> steps_;
   FrameQueue* pushed_ = nullptr;  // the source of frames that are pushed; owned by `steps_`

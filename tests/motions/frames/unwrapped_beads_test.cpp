@@ -72,6 +72,20 @@ TEST(UnwrappedBeads, StartAgain) {
   EXPECT_EQ(frame(0, 0), 1);
 }
 
+// A triclinic cell whose tilt jumps by a whole vector spans the same lattice.
+TEST(UnwrappedBeads, TiltsDoNotJump) {
+  Cell before = Eigen::Vector3d(8, 12, 16).asDiagonal(), after = before;
+  before(0, 1) = 4;
+  after(0, 1) = -4;
+  EXPECT_EQ(continued(after, before), before);
+  after(1, 2) = 11.5;
+  EXPECT_LT((continued(after, before) - before).cwiseAbs().maxCoeff(), 4.5);
+  EXPECT_EQ(continued(before, before), before);
+  EXPECT_EQ(continued(1.3 * before, before), 1.3 * before);
+  before.col(2).setZero();
+  EXPECT_EQ(continued(before, before), before);
+}
+
 TEST(UnwrappedBeads, FluidsAreStrewnAndChainsAreNot) {
   Random random(2);
   const Cell cell = random_cell(random);

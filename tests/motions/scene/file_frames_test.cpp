@@ -58,6 +58,10 @@ void expect_same_steps(const Scene& a, const Scene& b, const std::vector<std::si
         for (int axis = 0; axis < D; ++axis)
           ASSERT_EQ(motion_a.coordinate(bead, k, axis), motion_b.coordinate(bead, k, axis))
               << "step " << step << ", bead " << bead;
+    const std::size_t cell = D * (static_cast<std::size_t>(a.degree()) + 1) * D;
+    ASSERT_NE(motion_a.cell(), nullptr);
+    EXPECT_EQ(std::vector(motion_a.cell(), motion_a.cell() + cell),
+              std::vector(motion_b.cell(), motion_b.cell() + cell));
     EXPECT_EQ(a.centers(step + 1), b.centers(step + 1));
     EXPECT_EQ(a.frame_number(step), b.frame_number(step));
     EXPECT_EQ(a.stamp(step).picoseconds, b.stamp(step).picoseconds);
@@ -75,8 +79,12 @@ TEST(FileFrames, IsTheSceneOfAllFramesAtOnce) {
         const ReadOptions options{.frames = range};
         std::vector<Trajectory> whole{read_trajectory(moving, options), read_trajectory(resting, options)};
         Streamed streamed = open({moving, resting}, options);
-        EXPECT_EQ(streamed.warnings, whole[0].warnings);
         EXPECT_FALSE(streamed.warnings.empty());
+        std::erase_if(streamed.warnings,
+                      [](const std::string& line) {  // known once all frames have been read
+                        return line.find("its path is a guess") != std::string::npos;
+                      });
+        EXPECT_EQ(streamed.warnings, whole[0].warnings);
         const std::vector<double> radii = bead_radii("auto", whole);
         EXPECT_EQ(bead_radii("auto", streamed.stream->necklaces(), streamed.survey), radii);
         EXPECT_EQ(bead_radii("element", streamed.stream->necklaces(), streamed.survey),
@@ -84,6 +92,8 @@ TEST(FileFrames, IsTheSceneOfAllFramesAtOnce) {
         const Scene held(whole, radii, kind);
         const Scene read(std::move(streamed.stream), streamed.survey, radii, kind);
         ASSERT_EQ(read.frame_count(), held.frame_count());
+        EXPECT_TRUE(read.is_periodic());
+        EXPECT_TRUE(held.is_periodic());
         ASSERT_EQ(read.dimension(), held.dimension());
         ASSERT_EQ(read.dimension(), flat ? 2 : 3);
         std::vector<std::size_t> steps;
