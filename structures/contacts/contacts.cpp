@@ -1,19 +1,19 @@
 #include "structures/contacts/contacts.h"
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "motions/base/interruption.h"
 #include "motions/curves/positions.h"
-#include "motions/numbers/bernstein.h"
 #include "motions/scene/near_pairs.h"
+#include "structures/contacts/laid_images.h"
 #include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
@@ -84,116 +84,6 @@ std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
         fmt::format("{} of {} pairs known as in contact are apart", contacts.size() - met, contacts.size());
   return fault;
 }
-
-/// The beads at one time, each moved into the cell, and the images around it that may be within reach.
-template <int D>
-class LaidImages {
- public:
-  LaidImages(const Curves<D>& curves, double u)
-      : beads_(static_cast<BeadId>(curves.bead_count())), radii_(approximate_radii(curves, u)) {
-    const Eigen::Matrix3Xd centers = approximate_positions(curves, u);
-    const Eigen::Matrix3d cell = cell_at(curves, u);
-    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  // rows of vectors that span nothing stay zero
-    inverse = cell.completeOrthogonalDecomposition().pseudoInverse();
-    double reach = 0;
-    for (const double radius : radii_) reach = std::max(reach, 2 * radius);
-    Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Ones();
-    std::vector<CellShift<D>> homes(beads_);
-    largest_ = std::max(reach, centers.cwiseAbs().maxCoeff());
-    for (BeadId bead = 0; bead < beads_; ++bead) {
-      Eigen::Vector3d point = centers.col(bead);
-      for (Eigen::Index a = 0; a < D; ++a)
-        homes[bead][static_cast<std::size_t>(a)] =
-            static_cast<std::int32_t>(std::floor(inverse.row(a).dot(centers.col(bead))));
-      add(bead, point - shifted(cell, homes[bead]), {});
-    }
-    CellShift<D> most{};
-    for (Eigen::Index a = 0; a < D; ++a)
-      most[static_cast<std::size_t>(a)] =
-          static_cast<std::int32_t>(std::ceil(inverse.row(a).norm() * (reach + 0x1p-30 * largest_)));
-    CellShift<D> shift{};
-    for (std::size_t a = 0; a < shift.size(); ++a) shift[a] = -most[a] - (most[a] > 0 ? 1 : 0);
-    const CellShift<D> first = shift;
-    for (bool more = true; more;) {
-      if (shift != CellShift<D>{})
-        for (BeadId bead = 0; bead < beads_; ++bead) {
-          const Eigen::Vector3d point = points_[bead] + shifted(cell, shift);
-          const Eigen::Vector3d away = inverse * point;
-          bool is_near = true;
-          for (Eigen::Index a = 0; a < D; ++a) {
-            const double spare = inverse.row(a).norm() * (reach + 0x1p-30 * largest_);
-            is_near = is_near && away[a] >= low[a] - spare && away[a] <= high[a] + spare;
-          }
-          if (is_near) add(bead, point, shift);
-        }
-      more = false;
-      for (std::size_t a = 0; a < shift.size() && !more; ++a) {
-        more = ++shift[a] <= -first[a];
-        if (!more) shift[a] = first[a];
-      }
-    }
-    homes_ = std::move(homes);
-  }
-
-  /// Calls visit(a, b, shift of b, gap) for the images of beads a < b that are near or may be.
-  template <class Visit>
-  void visit_near(Visit visit) const {
-    Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(points_.size()));
-    std::vector<double> larger;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      points.col(static_cast<Eigen::Index>(i)) = points_[i];
-      larger.push_back(radii_[of_[i]] + 4 * spare());
-    }
-    visit_near_pairs(points, larger, [&](BeadId i, BeadId j) {
-      if (i >= beads_) return;  // two images, which are met elsewhere
-      const bool in_order = of_[i] < of_[j];
-      if (of_[i] == of_[j] || (j >= beads_ && !in_order)) return;
-      CellShift<D> shift = shifts_[j];
-      for (std::size_t a = 0; a < shift.size(); ++a) {
-        shift[a] += homes_[of_[i]][a] - homes_[of_[j]][a];
-        if (!in_order) shift[a] = -shift[a];
-      }
-      const double gap = (points_[i] - points_[j]).stableNorm() - radii_[of_[i]] - radii_[of_[j]];
-      visit(std::min(of_[i], of_[j]), std::max(of_[i], of_[j]), shift, gap);
-    });
-  }
-  [[nodiscard]] bool is_clear(double gap) const { return std::abs(gap) > 4 * spare(); }
-
- private:
-  // Exceeds by far what the rounding of times, sums and squares can add to a distance.
-  [[nodiscard]] double spare() const { return 0x1p-40 * largest_; }
-  void add(BeadId bead, const Eigen::Vector3d& point, const CellShift<D>& shift) {
-    points_.push_back(point);
-    of_.push_back(bead);
-    shifts_.push_back(shift);
-    largest_ = std::max(largest_, point.cwiseAbs().maxCoeff());
-  }
-  static Eigen::Matrix3d cell_at(const Curves<D>& curves, double u) {
-    Eigen::Matrix3d cell = Eigen::Matrix3d::Zero();
-    const int degree = curves.own_degree();
-    for (int k = 0; k <= degree; ++k) {
-      const double share =
-          static_cast<double>(binomial(degree, k)) * std::pow(u, k) * std::pow(1 - u, degree - k);
-      for (int vector = 0; vector < D; ++vector)
-        for (int axis = 0; axis < D; ++axis)
-          cell(axis, vector) += share * curves.cell_coordinate(vector, k, axis);
-    }
-    return cell;
-  }
-  static Eigen::Vector3d shifted(const Eigen::Matrix3d& cell, const CellShift<D>& shift) {
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    for (std::size_t a = 0; a < shift.size(); ++a) point += cell.col(static_cast<Eigen::Index>(a)) * shift[a];
-    return point;
-  }
-
-  BeadId beads_;
-  std::vector<double> radii_;
-  std::vector<CellShift<D>> homes_;
-  double largest_ = 0;
-  std::vector<Eigen::Vector3d> points_;  // the beads, then their images
-  std::vector<BeadId> of_;
-  std::vector<CellShift<D>> shifts_;
-};
 
 }  // namespace
 
@@ -304,24 +194,24 @@ std::vector<BeadId> Contacts<D>::state() const {
   std::vector<BeadId> state;
   for (const BeadPair& pair : pairs()) {
     state.insert(state.end(), {pair.first, pair.second});
-    if (shifts_.size() == 1) continue;
+    if (!is_periodic()) continue;
     std::vector<CellShift<D>> shifts;
     for (const std::uint32_t number : shifts_in_contact(pair)) shifts.push_back(shifts_.shift(number));
     std::sort(shifts.begin(), shifts.end());
+    state.push_back(static_cast<BeadId>(shifts.size()));
     for (const CellShift<D>& shift : shifts)
-      if (shift != CellShift<D>{} || shifts.size() > 1)
-        for (const std::int32_t multiple : shift) state.push_back(static_cast<BeadId>(multiple));
+      for (const std::int32_t multiple : shift) state.push_back(static_cast<BeadId>(multiple));
   }
   return state;
 }
 
 template <int D>
 void Contacts<D>::start_step() {
-  end_several();
+  forget_images();
   find_pairs(MovingFamily<D>::Resting::left_out, false, found_);
   disjoint_.hold_never(found_.proved);
-  gather_several();
   at_once_.clear();
+  gather_several();
   watch_from(0, true);
   if (!at_once_.empty()) settle_now();
   count_per_bead();
@@ -486,7 +376,8 @@ void Contacts<D>::fail(unsigned table, std::uint32_t slot) {
   const auto fails = [&](const auto& disjoint) {
     fail_at(disjoint.place_in_structure(slot), disjoint.touches(slot) ? touch : begin);
   };
-  table == disjoint_.number() ? fails(disjoint_) : fails(disjoint_images_);
+  if (table == disjoint_.number()) return fails(disjoint_);
+  fails(disjoint_images_);
 }
 
 template <int D>
@@ -556,6 +447,7 @@ void Contacts<D>::set_in_contact(const BeadPair& pair, const std::vector<std::ui
   const auto several = several_.find(key_of(pair));
   if (several != several_.end()) {
     several->second.in_contact = shifts;
+    several->second.settled = ~std::uint64_t{0};
   } else if (shifts.size() > 1) {
     several_[key_of(pair)].in_contact = shifts;
   } else if (shifts.size() == 1) {
@@ -564,7 +456,7 @@ void Contacts<D>::set_in_contact(const BeadPair& pair, const std::vector<std::ui
 }
 
 template <int D>
-void Contacts<D>::end_several() {
+void Contacts<D>::forget_images() {
   std::erase_if(several_, [this](auto& entry) {
     const auto& [key, several] = entry;
     const BeadPair pair{static_cast<BeadId>(key >> 32U), static_cast<BeadId>(key)};
@@ -572,11 +464,24 @@ void Contacts<D>::end_several() {
     if (several.in_contact.size() == 1) contacts_.insert(pair, several.in_contact.front());
     return true;
   });
+  if (shifts_.size() < 2 * shifts_in_use_ + 64) return;
+  ShiftNumbers<D> in_use;
+  const auto renumber = [&](std::uint32_t& shift) { shift = in_use.number_of(shifts_.shift(shift)); };
+  for (auto& [key, several] : several_)
+    for (std::uint32_t& shift : several.in_contact) renumber(shift);
+  contacts_.renumber_shifts([&](std::uint32_t shift) {
+    renumber(shift);
+    return shift;
+  });
+  shifts_ = std::move(in_use);
+  shifts_in_use_ = shifts_.size();
 }
 
 template <int D>
 void Contacts<D>::gather_several() {
   if (!found_.may_repeat && several_.empty()) return;
+  std::set<BeadPair> at_once;  // pairs that change now by images that are not in question
+  for (const Happens& change : at_once_) at_once.insert(change.image.pair);
   for (auto& [key, several] : several_) several.places.clear();
   std::vector<std::pair<std::uint64_t, std::uint32_t>> places;
   for (std::uint32_t place = 0; place < found_.unclear.size(); ++place)
@@ -586,7 +491,9 @@ void Contacts<D>::gather_several() {
     while (to < places.size() && places[to].first == places[from].first) ++to;
     const ImagePair& image = image_at(places[from].second);
     const bool other_in_contact = contacts_.contains(image.pair) && !contacts_.contains(image);
-    if (to - from == 1 && !other_in_contact && !several_.contains(places[from].first)) continue;
+    if (to - from == 1 && !other_in_contact && !several_.contains(places[from].first) &&
+        !at_once.contains(image.pair))
+      continue;
     std::vector<std::uint32_t> in_contact = shifts_in_contact(image.pair);
     SeveralImages& several = several_[places[from].first];
     several.in_contact = std::move(in_contact);
@@ -594,7 +501,7 @@ void Contacts<D>::gather_several() {
   }
 }
 
-// The first of the pair's images that fail at this moment settles what happens to the pair.
+// The first failure of a pair's image at a moment decides the pair's event.
 template <int D>
 void Contacts<D>::settle_several(SeveralImages& several, const BeadPair& pair) {
   if (several.settled == simulator().moment()) return;
@@ -602,7 +509,7 @@ void Contacts<D>::settle_several(SeveralImages& several, const BeadPair& pair) {
   const bool before = !several.in_contact.empty();
   bool now = false;
   std::optional<ImagePair> after;
-  for (const std::uint32_t shift : several.in_contact) {  // those not in question stay in contact
+  for (const std::uint32_t shift : several.in_contact) {  // without a certificate, it stays in contact
     const auto is_it = [&](std::uint32_t place) { return image_at(place).shift == shift; };
     if (std::ranges::none_of(several.places, is_it)) after = ImagePair{pair, shift};
   }
@@ -667,10 +574,12 @@ std::optional<std::string> Contacts<D>::fault_of_images(const Dyadic& time) {
     const BeadPair pair{a, b};
     if (fault || !family_.asked().asks(pair)) return;
     if (!absent.empty() && (absent[a] != 0 || absent[b] != 0)) return;
-    const ImagePair image{pair, shifts_.number_of(shift)};
+    const std::optional<std::uint32_t> number = shifts_.find(shift);
+    if (!number && laid.is_clear(gap) && gap > 0) return;  // apart, and never in question
+    const ImagePair image{pair, number ? *number : shifts_.number_of(shift)};
     int sign = gap > 0 ? 1 : -1;
     if (!laid.is_clear(gap)) {
-      shifted_.set(curves, shifts_);
+      if (!number) shifted_.set(curves, shifts_);
       sign = image.shift == 0 ? disjoint_.search().sign_at(disjoint(pair), time)
                               : disjoint_images_.search().sign_at(image_contact(image, 1), time);
     }

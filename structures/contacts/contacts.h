@@ -12,13 +12,14 @@
 // these pairs are those of the run without groups.
 //
 // In a periodic cell (HasCell), two beads are in contact while any image of one is within reach of the other.
-// Each pair of a bead and an image in question has a certificate of its own (shifted_beads.h), and a pair
-// begins or ends to be in contact when the first of its images begins or the last one ends. If one image ends
-// at the moment at which another begins, the pair stays in contact, because balls are closed. Images are
-// found in space (near_images.h). A bead is never in contact with its own image.
+// Each image in question has a certificate of its own (shifted_beads.h). A contact begins with the first
+// image that meets and ends with the last. If one image ends at the moment at which another begins, the pair
+// stays in contact, because balls are closed. A uniform grid finds the images that may meet (near_images.h).
+// A bead is never in contact with its own image.
 //
 // Contacts present at the first frame are part of the built structure and cause no events. All results are
-// exact. With the kernel `exact`, every pair is decided on integers and none is left to the family.
+// exact. With the kernel `exact`, every pair is decided on integers and none is left to the family; in a
+// periodic cell, doubles first exclude images that are out of reach.
 //
 // Erasing a bead ends its contacts. Inserting one begins the contacts that it has just after that time.
 // Erasing costs one pass over all certificates; inserting a bead or changing its course costs as much as the
@@ -62,7 +63,7 @@ class ContactSet {
   [[nodiscard]] bool contains(const ImagePair& image) const {
     return contains(image.pair) && shift_of(image.pair) == image.shift;
   }
-  /// Returns false if the pair was in the set already, whose shift is then replaced.
+  /// Replaces the shift and returns false if the pair was in the set.
   bool insert(const BeadPair& pair, std::uint32_t shift = 0) {
     if (2 * (size_ + 1) > slots_.size()) grow();
     const std::size_t at = slot_of(key_of(pair));
@@ -93,6 +94,12 @@ class ContactSet {
     std::fill(slots_.begin(), slots_.end(), empty);
     shifts_.clear();
     size_ = 0;
+  }
+  /// Gives each pair another shift, which `of(shift)` returns.
+  template <class Of>
+  void renumber_shifts(Of of) {
+    for (std::size_t at = 0; at < shifts_.size(); ++at)
+      if (slots_[at] != empty) shifts_[at] = of(shifts_[at]);
   }
   /// Returns all pairs, ascending.
   [[nodiscard]] std::vector<BeadPair> pairs() const {
@@ -153,7 +160,8 @@ class Contacts final : public EditableBase {
   [[nodiscard]] std::vector<BeadPair> pairs() const { return contacts_.pairs(); }
   /// Returns the changes that build the structure from nothing (RunningStructure::built).
   [[nodiscard]] std::vector<Change> built() const;
-  /// Returns the pairs in contact, which determine all later events (RunningStructure::state).
+  /// Returns the pairs in contact with the shifts of their images that meet, which determine all later events
+  /// (RunningStructure::state).
   [[nodiscard]] std::vector<BeadId> state() const;
 
   void build() override;
@@ -215,10 +223,11 @@ class Contacts final : public EditableBase {
   [[nodiscard]] bool is_in_contact(const ImagePair& image) const;
   /// Returns the shifts of the pair's images that are in contact.
   [[nodiscard]] std::vector<std::uint32_t> shifts_in_contact(const BeadPair& pair) const;
-  /// Sets these without recording a change of the pair.
+  /// Sets the shifts of the pair's images in contact. Records no event.
   void set_in_contact(const BeadPair& pair, const std::vector<std::uint32_t>& shifts);
-  /// Forgets pairs that have at most one image in contact.
-  void end_several();
+  /// Removes entries with at most one image in contact, and keeps that image in `contacts_`. Numbers the
+  /// shifts anew if few of them are in use.
+  void forget_images();
   /// Finds the pairs that have several images in question or in contact.
   void gather_several();
   void settle_several(SeveralImages& several, const BeadPair& pair);
@@ -229,6 +238,7 @@ class Contacts final : public EditableBase {
   MovingFamily<Dimension> family_;
   NearImages<Dimension> near_images_;  // in place of the family if there is a cell
   ShiftNumbers<Dimension> shifts_;
+  std::size_t shifts_in_use_ = 1;  // when they were numbered
   ShiftedBeads<Dimension> shifted_;
   CertificateTable<Contact> disjoint_, overlapping_;
   CertificateTable<ImageContact> disjoint_images_, overlapping_images_;  // of shifts other than 0

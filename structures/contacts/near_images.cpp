@@ -1,8 +1,10 @@
 #include "structures/contacts/near_images.h"
 
+#include <fmt/format.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -15,8 +17,10 @@ namespace kds {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-/// A cell that changes by more in a step is laid into no grid.
+/// If the cell changes by more in a step, all pairs are tested.
 constexpr double most_strain = 0.25;
+/// The most images on each side along a vector that are compared, and those of a pair that are listed.
+constexpr int most_images = 32, most_in_box = 100'000;
 
 /// Replaces the control points of a curve, `columns` numbers each, by those of its part between two times.
 void restrict_curve(double* points, std::size_t row, std::size_t columns, double from, double to) {
@@ -36,18 +40,6 @@ void restrict_curve(double* points, std::size_t row, std::size_t columns, double
   if (to < 1) halve((to - from) / (1 - from), false);
 }
 
-/// Returns integer numbers that add up.
-template <std::size_t N>
-std::array<std::int32_t, N> sum(std::array<std::int32_t, N> a, const std::array<std::int32_t, N>& b,
-                                int sign) {
-  for (std::size_t i = 0; i < N; ++i) a[i] += sign * b[i];
-  return a;
-}
-template <std::size_t N>
-bool is_zero(const std::array<std::int32_t, N>& shift) {
-  return std::all_of(shift.begin(), shift.end(), [](std::int32_t i) { return i == 0; });
-}
-
 }  // namespace
 
 template <int D>
@@ -60,6 +52,7 @@ NearImages<D>::NearImages(PairsAsked asked) : asked_(std::move(asked)) {
 template <int D>
 void NearImages<D>::lay_lattice(const Curves<D>& curves) {
   lattice_ = {};
+  largest_ = 0;
   std::vector<Cell> cells(row_, Cell::Zero());
   for (std::size_t k = 0; k < row_; ++k)
     for (int vector = 0; vector < D; ++vector)
@@ -71,6 +64,10 @@ void NearImages<D>::lay_lattice(const Curves<D>& curves) {
   int rank = 0;
   while (rank < D && !lattice_.middle.col(rank).isZero(0))
     lattice_.periodic[static_cast<std::size_t>(rank++)] = true;
+  const auto spans = [&](int vector) { return !cells.front().col(vector).isZero(0); };
+  if (rank != int{spans(0)} + int{spans(1)} + int{spans(2)})
+    throw InputError(
+        "a vector of the periodic cell turns into its opposite in one step; expected smaller changes");
   lattice_.shortest = rank > 0 ? lattice_.middle.col(0).norm() : unbounded;
   // Completes the basis by unit vectors across all vectors before, in the plane first.
   std::vector<Eigen::Vector3d> units;
@@ -90,6 +87,7 @@ void NearImages<D>::lay_lattice(const Curves<D>& curves) {
   for (const Cell& cell : cells) {
     Eigen::Matrix3d control = lattice_.middle;
     control.leftCols(rank) = cell * lattice_.steps.leftCols(rank);
+    largest_ = std::max(largest_, (cell.cwiseAbs() * lattice_.steps.cwiseAbs()).sum());
     lattice_.controls.push_back(control);
     lattice_.strain =
         std::max(lattice_.strain, ((control - lattice_.middle) * lattice_.inverse).norm() * (1 + 0x1p-40));
@@ -99,11 +97,8 @@ void NearImages<D>::lay_lattice(const Curves<D>& curves) {
 template <int D>
 void NearImages<D>::measure(const Curves<D>& curves) {
   homes_.assign(curves.bead_count(), {});
-  largest_ = radius_ = longest_move_ = 0;
-  double squares = 0;
-  for (int vector = 0; vector < D; ++vector)
-    if (lattice_.periodic[static_cast<std::size_t>(vector)])
-      largest_ = std::max(largest_, 2 * lattice_.middle.col(vector).norm());
+  radius_ = 0;
+  double squares = 0, farthest = 0;
   std::vector<Eigen::Vector3d> points(row_, Eigen::Vector3d::Zero());
   std::size_t asked = 0;
   for (BeadId bead = 0; bead < curves.bead_count(); ++bead) {
@@ -113,7 +108,7 @@ void NearImages<D>::measure(const Curves<D>& curves) {
     for (std::size_t k = 0; k < row_; ++k) {
       for (int axis = 0; axis < D; ++axis) {
         points[k][axis] = curves.coordinate(bead, static_cast<int>(k), axis);
-        largest_ = std::max(largest_, std::abs(points[k][axis]));
+        farthest = std::max(farthest, std::abs(points[k][axis]));
       }
       mean += points[k] / static_cast<double>(row_);
       radius_ = std::max(radius_, curves.radius(bead, static_cast<int>(k)));
@@ -122,19 +117,18 @@ void NearImages<D>::measure(const Curves<D>& curves) {
     for (std::size_t a = 0; a < dimension; ++a) {
       if (!lattice_.periodic[a]) continue;
       const double home = std::floor(share[static_cast<Eigen::Index>(a)]);
-      if (!(std::abs(home) < ShiftedBeads<D>::most / 8))
-        throw InputError("beads are more than a hundred thousand cells away from the origin; expected fewer");
+      if (!(std::abs(home) < ShiftNumbers<D>::most / 8))
+        throw InputError("a bead is more than 131,072 cells away from the origin; expected fewer");
       homes_[bead][a] = static_cast<std::int32_t>(home);
     }
     double move = 0;
-    Eigen::Vector3d first = points[0] - shifted(lattice_.controls[0], homes_[bead]);
+    const Eigen::Vector3d first = points[0] - vector_of(homes_[bead], lattice_.controls[0]);
     for (std::size_t k = 1; k < row_; ++k)
-      move = std::max(move, (points[k] - shifted(lattice_.controls[k], homes_[bead]) - first).norm());
-    longest_move_ = std::max(longest_move_, move);
+      move = std::max(move, (points[k] - vector_of(homes_[bead], lattice_.controls[k]) - first).norm());
     squares += move * move;
   }
-  usual_move_ = std::sqrt(squares / std::max<double>(1, static_cast<double>(asked)));
-  largest_ = std::max(largest_, radius_);
+  rms_move_ = std::sqrt(squares / std::max<double>(1, static_cast<double>(asked)));
+  largest_ = 8 * (largest_ + farthest + radius_);
   margin_ = 0x1p-44 * largest_;
 }
 
@@ -160,7 +154,7 @@ void NearImages<D>::enter_piece(const Curves<D>& curves, double from, double to,
     if (groups_of(bead) == 0) continue;
     double* const points = &points_[bead * row_ * dimension];
     for (std::size_t k = 0; k < row_; ++k) {
-      const Eigen::Vector3d home = shifted(lattice_.controls[k], homes_[bead]);
+      const Eigen::Vector3d home = vector_of(homes_[bead], lattice_.controls[k]);
       for (std::size_t axis = 0; axis < dimension; ++axis)
         points[k * dimension + axis] = curves.coordinate(bead, static_cast<int>(k), static_cast<int>(axis)) -
                                        home[static_cast<Eigen::Index>(axis)];
@@ -177,7 +171,8 @@ void NearImages<D>::enter_piece(const Curves<D>& curves, double from, double to,
       add_swept(bead, points, radius);
       continue;
     }
-    const auto parts = static_cast<std::size_t>(std::ceil(stray / most_stray));
+    constexpr double most_parts = 1024;  // a bead that jumps farther makes the bins wider
+    const auto parts = static_cast<std::size_t>(std::min(most_parts, std::ceil(stray / most_stray)));
     std::vector<double> part(row_ * dimension);
     for (std::size_t p = 0; p < parts; ++p) {
       std::copy_n(points, part.size(), part.begin());
@@ -222,6 +217,9 @@ void NearImages<D>::add_swept(BeadId bead, const double* points, double radius) 
     const double away = std::floor(coordinate_of(swept.center, a));
     if (away == 0) continue;
     swept.wrapped[a] += static_cast<std::int32_t>(away);
+    // The bead moves with the vectors at its time, its swept ball with those in the middle.
+    swept.reach +=
+        std::abs(away) * lattice_.strain * lattice_.middle.col(static_cast<Eigen::Index>(a)).norm();
     for (std::size_t axis = 0; axis < dimension; ++axis)
       swept.center[axis] -=
           away * lattice_.middle(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(a));
@@ -242,6 +240,9 @@ void NearImages<D>::fill_grid() {
       high[a] = std::max(high[a], at);
     }
   }
+  // For an image t that is compared, with M the vectors in the middle: |M t| is at most the distance of two
+  // points in the cell, `spread`, and the reach, `wobble_` included. The vectors at another time differ by
+  // strain |M t|.
   double spread = 0;
   for (int a = 0; a < D; ++a)
     if (lattice_.periodic[static_cast<std::size_t>(a)]) spread += lattice_.middle.col(a).norm();
@@ -258,17 +259,22 @@ void NearImages<D>::fill_grid() {
   }
   // At most a few cells per swept ball.
   const double most = 4 * static_cast<double>(swept_.size()) + 64;
-  const double shrink = std::pow(std::max(1.0, wanted / most), 1.0 / D);
+  for (; wanted > most; wanted = std::accumulate(counts.begin(), counts.end(), 1.0, std::multiplies<>()))
+    for (double& count : counts) count = std::max(1.0, std::floor(count * std::pow(most / wanted, 1.0 / D)));
   std::size_t cells = 1;
   for (std::size_t a = 0; a < dimension; ++a) {
-    cells_[a] = static_cast<std::int32_t>(std::clamp(std::floor(counts[a] / shrink), 1.0, most));
+    cells_[a] = static_cast<std::int32_t>(counts[a]);
     low_[a] = lattice_.periodic[a] ? 0 : low[a];
     const double length = lattice_.periodic[a] ? 1 : high[a] - low[a];
     width_[a] = length / cells_[a];
-    const double apart = width_[a] * heights[a];
-    reach_[a] = !lattice_.periodic[a] && cells_[a] == 1
-                    ? 0
-                    : static_cast<std::int32_t>(std::ceil(width / apart * (1 + 0x1p-30)));
+    const double within = std::ceil(width / (width_[a] * heights[a]) * (1 + 0x1p-30));
+    const bool is_alone = !lattice_.periodic[a] && cells_[a] == 1;
+    if (!is_alone && !(within <= most_images))
+      throw InputError(fmt::format(
+          "two beads are within reach at a distance of {:.4g}, more than {} times the width of the periodic "
+          "cell; expected a shorter reach",
+          width, most_images));
+    reach_[a] = is_alone ? 0 : static_cast<std::int32_t>(within);
     cells *= static_cast<std::size_t>(cells_[a]);
   }
   begins_.assign(cells + 1, 0);
@@ -287,9 +293,8 @@ void NearImages<D>::fill_grid() {
   }
   std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
   sorted_.resize(swept_.size());
-  std::vector<std::uint32_t>& next = next_;
-  next.assign(begins_.begin(), begins_.end() - 1);
-  for (std::size_t i = 0; i < swept_.size(); ++i) sorted_[next[in_cells_[i]]++] = swept_[i];
+  next_.assign(begins_.begin(), begins_.end() - 1);
+  for (std::size_t i = 0; i < swept_.size(); ++i) sorted_[next_[in_cells_[i]]++] = swept_[i];
 }
 
 // Looks at each pair of a cell and a cell not before it, counted across the walls, so that each pair of a
@@ -379,16 +384,16 @@ void NearImages<D>::look_at(const Swept& one, const Swept& other, const Shift& i
   const Swept& first = in_order ? one : other;
   const Swept& second = in_order ? other : one;
   // The second bead's shift in the reduced lattice, from the images that have been compared.
-  Shift shift = sum(first.wrapped, second.wrapped, -1);
-  shift = sum(shift, image, in_order ? 1 : -1);
-  const Shift from_homes = sum(sum(shift, homes_[second.bead], 1), homes_[first.bead], -1);
+  Shift shift = plus(first.wrapped, second.wrapped, -1);
+  shift = plus(shift, image, in_order ? 1 : -1);
+  const Shift from_homes = plus(plus(shift, homes_[second.bead]), homes_[first.bead], -1);
   const double* const a = &points_[first.bead * row_ * dimension];
   const double* const b = &points_[second.bead * row_ * dimension];
   differences_.resize(row_);
   Point toward{};
   for (std::size_t k = 0; k < row_; ++k) {
     Eigen::Vector3d moved = Eigen::Vector3d::Zero();
-    if (!is_zero(from_homes)) moved = shifted(piece_[k], from_homes);
+    if (!is_zero(from_homes)) moved = vector_of(from_homes, piece_[k]);
     for (std::size_t axis = 0; axis < dimension; ++axis) {
       const double d =
           b[k * dimension + axis] - a[k * dimension + axis] + moved[static_cast<Eigen::Index>(axis)];
@@ -422,11 +427,12 @@ template <int D>
 std::uint32_t NearImages<D>::number_of(const Shift& reduced, ShiftNumbers<D>& shifts) const {
   if (is_zero(reduced)) return 0;
   Shift shift{};
-  for (std::size_t a = 0; a < dimension; ++a) {
-    if (reduced[a] == 0) continue;
-    for (std::size_t v = 0; v < dimension; ++v)
-      shift[v] += reduced[a] * static_cast<std::int32_t>(lattice_.steps(static_cast<Eigen::Index>(v),
-                                                                        static_cast<Eigen::Index>(a)));
+  for (std::size_t v = 0; v < dimension; ++v) {
+    double multiple = 0;  // exact up to 2^53
+    for (std::size_t a = 0; a < dimension; ++a)
+      multiple += reduced[a] * lattice_.steps(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(a));
+    shift[v] = static_cast<std::int32_t>(
+        std::clamp(multiple, -2.0 * ShiftNumbers<D>::most, 2.0 * ShiftNumbers<D>::most));
   }
   return shifts.number_of(shift);
 }
@@ -440,8 +446,7 @@ void NearImages<D>::find(const Curves<D>& curves, bool list_overlapping, ShiftNu
   if (lattice_.strain > most_strain) return find_by_boxes(curves, shifts, pairs);
   measure(curves);
   const double wanted = stray_wanted();
-  const auto pieces =
-      static_cast<std::size_t>(std::clamp(std::ceil(0.5 * usual_move_ / wanted), 1.0, 1024.0));
+  const auto pieces = static_cast<std::size_t>(std::clamp(std::ceil(0.5 * rms_move_ / wanted), 1.0, 1024.0));
   in_parts_ = false;
   is_whole_step_ = pieces == 1;
   for (std::size_t p = 0; p < pieces; ++p) {
@@ -457,8 +462,7 @@ void NearImages<D>::find(const Curves<D>& curves, bool list_overlapping, ShiftNu
       found->erase(std::unique(found->begin(), found->end()), found->end());
     }
   }
-  pairs.may_repeat = (1 - lattice_.strain) * lattice_.shortest <=
-                     (1 + 0x1p-20) * (4 * radius_ + 2 * longest_move_) + 8 * margin_;
+  pairs.may_repeat = (1 - lattice_.strain) * lattice_.shortest <= 4 * (1 + 0x1p-20) * radius_ + margin_;
 }
 
 // With d_k the differences of two beads' control points and R_k the vectors at these, an image t meets at
@@ -491,6 +495,7 @@ void NearImages<D>::find_by_boxes(const Curves<D>& curves, ShiftNumbers<D>& shif
       const double half =
           (reach + lattice_.strain * (longest + reach) / (1 - lattice_.strain) + margin_) * (1 + 0x1p-20);
       Shift low{}, high{};
+      double images = 1;
       for (std::size_t a = 0; a < dimension; ++a) {
         if (!lattice_.periodic[a]) continue;
         const auto row = lattice_.inverse.row(static_cast<Eigen::Index>(a));
@@ -499,6 +504,12 @@ void NearImages<D>::find_by_boxes(const Curves<D>& curves, ShiftNumbers<D>& shif
           least = std::min(least, -row.dot(d));
           most = std::max(most, -row.dot(d));
         }
+        images *= most - least + 2 * row.norm() * half + 1;
+        if (!(images <= most_in_box))
+          throw InputError(
+              fmt::format("beads {} and {} may meet more than {} images of each other in one step; "
+                          "expected a shorter reach, shorter moves or smaller changes of the cell",
+                          first, second, most_in_box));
         low[a] = static_cast<std::int32_t>(std::ceil(least - row.norm() * half));
         high[a] = static_cast<std::int32_t>(std::floor(most + row.norm() * half));
       }

@@ -1,27 +1,28 @@
 #pragma once
-// Pairs of beads in a periodic cell of which some images may meet in a step. The search is in space: beads
-// are sorted into the cells of a grid, whatever their order along a chain. It serves solvents as well as
+// Finds the pairs of a bead and an image of another that may meet in a step. The search is in space: beads
+// are sorted into the bins of a grid, whatever their order along a chain. It serves solvents as well as
 // chains.
 //
-// The step is cut into pieces so short that most beads move less than their radius in one. In a piece, a bead
+// The step is cut into pieces, short enough for the root mean square of the beads' moves. In a piece, a bead
 // is in a ball at rest around the box of its curve's control points, a swept ball; the swept ball of a bead
 // that moves far is replaced by several, one for each part of its path. The grid lies along the vectors of
-// the Minkowski-reduced lattice, and swept balls are moved into one cell of the lattice. A cell of the grid
-// is as wide as the largest reach of two swept balls, so that only adjacent cells are compared, across the
-// walls too. If the lattice's cell is narrower than a cell of the grid, several images of it are compared.
+// the Minkowski-reduced lattice, and swept balls are moved into one cell of the lattice. A bin is as wide as
+// the largest reach of two swept balls, so that only adjacent bins are compared, across the walls too. If the
+// lattice's cell is narrower than a bin, several images of it are compared.
 //
 // Pairs whose swept balls meet are looked at more closely: with d_k the differences of two beads' control
 // points in the piece and R_k the sums of their radii, they are apart if all n.d_k > R_k |n| for some
 // direction n, and in contact throughout if all |d_k| < R_k (block_beads.h).
 //
-// All of it in doubles. Every length that decides has an error below 2^-48 of the largest coordinate (a sum
-// of at most six rounded terms, each at most as large), and 2^-44 of it is granted to each reach.
+// The search computes in doubles. A number that decides is a sum of fewer than 100 rounded terms at degrees
+// up to 10, each at most a bound B of all coordinates, so its error is below 2^-46 B. Each reach is granted
+// 2^-44 B.
 //
-// With groups, beads of no group are left out, and cells are compared only if a bead of one is in the one
-// group and a bead of the other in the other.
+// With groups, beads of no group are left out, and bins are compared only if one has a bead of one group and
+// the other a bead of the other group.
 //
-// Time and memory are linear in the beads and the pairs whose swept balls meet, except that one ball much
-// larger than the others makes all cells of the grid as large as itself.
+// Time is linear in the swept balls of all pieces and their pairs that meet, except that one ball much larger
+// than the others makes all bins as large as itself. Memory is linear in the beads and the pairs found.
 
 #include <array>
 #include <cstddef>
@@ -46,8 +47,8 @@ struct ImagePair {
 struct PairsOfImages {
   std::vector<ImagePair> unclear;      ///< may begin or end to meet in the step; each once
   std::vector<ImagePair> overlapping;  ///< meet during the whole step; filled only on request
-  std::uint64_t proved = 0;  ///< pairs whose swept balls meet, proved apart or in contact throughout
-  /// Whether two images of one bead may be in question for another one.
+  std::uint64_t proved = 0;            ///< pairs proved apart or in contact throughout, once in each piece
+  /// Whether two images of one bead may be in contact with another at the same time.
   bool may_repeat = false;
 
   void clear() {
@@ -63,21 +64,19 @@ class NearImages {
  public:
   explicit NearImages(PairsAsked asked);
 
-  [[nodiscard]] const PairsAsked& asked() const { return asked_; }
   /// Finds the pairs asked about for the step of these curves, which must have a cell. New shifts get
   /// numbers.
   void find(const Curves<Dimension>& curves, bool list_overlapping, ShiftNumbers<Dimension>& shifts,
             PairsOfImages& pairs);
-  /// Finds all pairs of images that may meet by their coordinates along the cell's vectors, one by one, for a
-  /// kernel that is to decide them without a filter. Takes quadratic time. Throws InputError if the cell
-  /// changes by almost its own size.
+  /// Tests all pairs: lists each image whose box of fractional coordinates comes within reach. For the kernel
+  /// `exact`. Takes quadratic time. Throws InputError if the cell changes by almost its own size.
   void find_by_boxes(const Curves<Dimension>& curves, ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
 
  private:
   static constexpr auto dimension = static_cast<std::size_t>(Dimension);
   using Point = std::array<double, dimension>;
   using Shift = CellShift<Dimension>;
-  /// The lattice of the step in its reduced basis, completed by unit vectors across what is periodic.
+  /// The lattice of the step in its reduced basis, completed by orthogonal unit vectors.
   struct Lattice {
     Eigen::Matrix3d middle =
         Eigen::Matrix3d::Zero();            // half-way between the ends of the step; columns are vectors
@@ -86,7 +85,7 @@ class NearImages {
     Eigen::Matrix3d steps = Eigen::Matrix3d::Zero();  // the reduced vectors in multiples of the cell's
     std::array<bool, 3> periodic{};
     double shortest = 0;  // length of the first vector of `middle`
-    double strain = 0;    // a shift s is within strain |s| of its length in the middle, at all times
+    double strain = 0;    // a shift changes by at most this share of its length in the middle
   };
   /// A ball that holds a bead's ball in a piece of the step. Its centre is in one cell of the lattice; its
   /// bead is there plus `wrapped` reduced vectors.
@@ -129,21 +128,15 @@ class NearImages {
           lattice_.inverse(static_cast<Eigen::Index>(vector), static_cast<Eigen::Index>(axis)) * point[axis];
     return sum;
   }
-  [[nodiscard]] static Eigen::Vector3d shifted(const Eigen::Matrix3d& vectors, const Shift& shift) {
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    for (std::size_t a = 0; a < dimension; ++a) point += vectors.col(static_cast<Eigen::Index>(a)) * shift[a];
-    return point;
-  }
 
   PairsAsked asked_;
   std::vector<std::uint32_t> necklaces_;  // of each bead
   Lattice lattice_;
   std::size_t row_ = 2;       // control points of a curve
-  double largest_ = 0;        // length of all that is added up
+  double largest_ = 0;        // bounds all numbers that are added
   double margin_ = 0;         // granted to each reach for rounding
   double radius_ = 0;         // largest
-  double longest_move_ = 0;   // from the first to any control point
-  double usual_move_ = 0;     // root of the mean square
+  double rms_move_ = 0;       // of the beads in the step
   std::vector<Shift> homes_;  // of each bead: its cell of the lattice in the middle of the step
 
   // The present piece of the step.
@@ -153,8 +146,8 @@ class NearImages {
   bool in_parts_ = false;               // some bead has several swept balls
   bool is_whole_step_ = true;           // the step is not cut
   double wobble_ = 0;                   // added to the reach of images
-  // The grid along the lattice's vectors: number of cells, cells within reach, first corner and width of a
-  // cell in coordinates of the lattice, and where each cell begins in `sorted_`.
+  // The grid along the lattice's vectors: number of bins, bins within reach, first corner and width of a bin
+  // in coordinates of the lattice, and where each bin begins in `sorted_`.
   Shift cells_{}, reach_{};
   Point low_{}, width_{};
   std::vector<std::uint32_t> begins_, next_, in_cells_;

@@ -2,23 +2,28 @@
 // Images of beads in a periodic cell, for exact certificates. An image of a bead is the bead moved by a
 // shift, a whole multiple of the cell's vectors, which change with time as the cell does.
 //
-// A shift is hardly ever a double, but it is the sum of two: its control points are kept as the difference of
-// two points, which `image_contact` certificates name like beads. Such a certificate is therefore exact, for
-// any cell that changes, and its function has the degree of the motion's squares.
+// A shift is rarely a double, so its control points are stored as the difference of two points, which
+// `image_contact` certificates name like beads. Such a certificate is exact for the rounded vectors, also if
+// the cell changes, and its function has the degree of the motion's squares.
 //
 // The vectors' control points are rounded once: to multiples of 2^-80 of the largest coordinate among the
 // vectors at the same control point, so the vectors of a frame are the same in both steps that it joins. Any
 // coordinate above 2^-27 of the largest one is such a multiple already.
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "motions/base/input_error.h"
 #include "motions/curves/curves.h"
+#include "motions/curves/motion.h"
 
 namespace kds {
 
@@ -26,16 +31,47 @@ namespace kds {
 template <int Dimension>
 using CellShift = std::array<std::int32_t, static_cast<std::size_t>(Dimension)>;
 
+/// Returns a + sign * b.
+template <std::size_t N>
+[[nodiscard]] std::array<std::int32_t, N> plus(std::array<std::int32_t, N> a,
+                                               const std::array<std::int32_t, N>& b, int sign = 1) {
+  for (std::size_t i = 0; i < N; ++i) a[i] += sign * b[i];
+  return a;
+}
+template <std::size_t N>
+[[nodiscard]] bool is_zero(const std::array<std::int32_t, N>& shift) {
+  return std::all_of(shift.begin(), shift.end(), [](std::int32_t i) { return i == 0; });
+}
+/// Returns a shift as a vector, rounded. The columns of `cell` are the vectors.
+template <std::size_t N>
+[[nodiscard]] Eigen::Vector3d vector_of(const std::array<std::int32_t, N>& shift,
+                                        const Eigen::Matrix3d& cell) {
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  for (std::size_t a = 0; a < N; ++a) vector += cell.col(static_cast<Eigen::Index>(a)) * shift[a];
+  return vector;
+}
+
 /// Numbers shifts in the order in which they are first asked for. Shift 0 is none.
 template <int Dimension>
 class ShiftNumbers {
  public:
   ShiftNumbers() { (void)number_of({}); }
 
+  /// The largest multiple of a cell vector.
+  static constexpr std::int32_t most = 1 << 20;
+
+  /// Throws InputError if a multiple is too large.
   [[nodiscard]] std::uint32_t number_of(const CellShift<Dimension>& shift) {
+    for (const std::int32_t multiple : shift)
+      if (std::abs(multiple) > most)
+        throw InputError("two beads in contact are more than a million cells apart; expected fewer");
     const auto [found, is_new] = numbers_.try_emplace(shift, static_cast<std::uint32_t>(shifts_.size()));
     if (is_new) shifts_.push_back(shift);
     return found->second;
+  }
+  [[nodiscard]] std::optional<std::uint32_t> find(const CellShift<Dimension>& shift) const {
+    const auto found = numbers_.find(shift);
+    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
   }
   [[nodiscard]] const CellShift<Dimension>& shift(std::uint32_t number) const { return shifts_[number]; }
   [[nodiscard]] std::size_t size() const { return shifts_.size(); }
@@ -51,9 +87,6 @@ class ShiftedBeads {
  public:
   static constexpr int dimension = Dimension;
   static constexpr int degree = any_degree;
-  /// The largest multiple of a cell vector.
-  static constexpr std::int32_t most = 1 << 20;
-
   explicit ShiftedBeads(int own_degree) : row_(static_cast<std::size_t>(own_degree) + 1) {}
 
   /// Copies the beads of the step, which must have a cell, and computes the shifts.
@@ -65,9 +98,7 @@ class ShiftedBeads {
       std::copy_n(curves.control_point(bead, 0), row_ * stride, &points_[bead * row_ * stride]);
       std::copy_n(curves.radii(bead), row_, &radii_[bead * row_]);
     }
-    for (std::uint32_t number = 0; number < shifts.size(); ++number)
-      for (std::size_t k = 0; k < row_; ++k)
-        set_shift(curves, shifts.shift(number), number, static_cast<int>(k));
+    for (std::size_t k = 0; k < row_; ++k) set_shifts(curves, shifts, k);
   }
   /// Returns the points whose difference is the shift of this number.
   [[nodiscard]] BeadId to(std::uint32_t number) const { return static_cast<BeadId>(beads_ + 2 * number); }
@@ -87,29 +118,32 @@ class ShiftedBeads {
   static constexpr std::size_t stride = Dimension + 1;
   __extension__ using Integer = __int128;
 
-  void set_shift(const Curves<Dimension>& curves, const CellShift<Dimension>& shift, std::uint32_t number,
-                 int k) {
+  void set_shifts(const Curves<Dimension>& curves, const ShiftNumbers<Dimension>& shifts, std::size_t k) {
     double largest = 0;
     for (int vector = 0; vector < Dimension; ++vector)
       for (int axis = 0; axis < Dimension; ++axis)
-        largest = std::max(largest, std::abs(curves.cell_coordinate(vector, k, axis)));
+        largest = std::max(largest, std::abs(curves.cell_coordinate(vector, static_cast<int>(k), axis)));
     const int unit = largest > 0 ? std::ilogb(largest) + 1 - 80 : 0;  // a power of two
-    double* const high = &points_[(to(number) * row_ + static_cast<std::size_t>(k)) * stride];
-    double* const low = &points_[(from(number) * row_ + static_cast<std::size_t>(k)) * stride];
-    for (int axis = 0; axis < Dimension; ++axis) {
-      Integer sum = 0;  // below 3 * 2^100
-      for (std::size_t vector = 0; vector < shift.size(); ++vector) {
-        if (std::abs(shift[vector]) > most)
-          throw InputError("beads have moved more than a million cells apart; expected fewer");
-        const double coordinate = curves.cell_coordinate(static_cast<int>(vector), k, axis);
-        sum += static_cast<Integer>(std::nearbyint(std::ldexp(coordinate, -unit))) * shift[vector];
+    Integer cell[Dimension][Dimension];                               // in units, below 2^80
+    for (int vector = 0; vector < Dimension; ++vector)
+      for (int axis = 0; axis < Dimension; ++axis)
+        cell[vector][axis] = static_cast<Integer>(
+            std::nearbyint(std::ldexp(curves.cell_coordinate(vector, static_cast<int>(k), axis), -unit)));
+    for (std::uint32_t number = 0; number < shifts.size(); ++number) {
+      const CellShift<Dimension>& shift = shifts.shift(number);
+      double* const high = &points_[(to(number) * row_ + k) * stride];
+      double* const low = &points_[(from(number) * row_ + k) * stride];
+      for (int axis = 0; axis < Dimension; ++axis) {
+        Integer sum = 0;  // below 2^102
+        for (int vector = 0; vector < Dimension; ++vector)
+          sum += cell[vector][axis] * shift[static_cast<std::size_t>(vector)];
+        const auto rounded = static_cast<double>(sum);
+        const auto rest = static_cast<double>(sum - static_cast<Integer>(rounded));  // exact
+        high[axis] = std::ldexp(rounded, unit);
+        low[axis] = -std::ldexp(rest, unit);
       }
-      const auto rounded = static_cast<double>(sum);
-      const auto rest = static_cast<double>(sum - static_cast<Integer>(rounded));  // exact
-      high[axis] = std::ldexp(rounded, unit);
-      low[axis] = -std::ldexp(rest, unit);
+      high[Dimension] = low[Dimension] = 0;
     }
-    high[dimension] = low[dimension] = 0;
   }
 
   std::size_t row_;  // control points per bead

@@ -450,6 +450,26 @@ TEST(Contacts, OfALongChainAreThoseOfFrames) {
   EXPECT_LT(c.created, steps.size() * beads * 1000);  // each bead has 3000 pairs
 }
 
+// Two runs of contacts have functions of their own of the same beads, whose roots may differ by less than a
+// double can tell.
+TEST(Contacts, OfTwoCutoffsThatHardlyDiffer) {
+  const Space motion = with_radii(moving({{0, 0, 0}, {-5, 0.3, 0}}, {{0, 0, 0}, {4, 0.7, 0}}), {1});
+  Simulator simulator(AuditMode::events);
+  History history;
+  const PairsAsked asked = all_pairs(2);
+  const Contacts<3> inner(simulator, motion, asked, {1, 1});
+  const Contacts<3> outer(simulator, motion, asked, {1, std::nextafter(1.0, 2.0)});
+  simulator.listen(history);
+  simulator.build();
+  simulator.run_step();
+  simulator.finish();
+  std::vector<std::string> order;
+  for (const Event& e : history.events)
+    order.push_back(
+        text_of(e.structure_index == 0 ? "inner" : "outer", e.change.kind == 0 ? " begins" : " ends"));
+  EXPECT_THAT(order, ElementsAre("outer begins", "inner begins", "inner ends", "outer ends"));
+}
+
 TEST(Contacts, BeadsAtRestCostNothing) {
   // Two necklaces rest side by side, and a third moves far away from both.
   Points from, to;

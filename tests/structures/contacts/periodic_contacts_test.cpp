@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "motions/base/input_error.h"
 #include "motions/frames/periodic.h"
 #include "structures/contacts/contacts.h"
 #include "tests/support/inputs/moving_beads.h"
@@ -52,10 +54,9 @@ void expect_right(const std::vector<M>& steps, int most_shift = 6) {
 }
 
 /// Runs two balls of radius 1 in a cell: the first rests, the second is at the given places in the frames.
-std::vector<std::string> told_of(const Points& places, const Cell& cell,
-                                 const std::array<double, 3>& rests = {}) {
+std::vector<std::string> told_of(const Points& places, const Cell& cell) {
   std::vector<Points> frames;
-  for (const auto& place : places) frames.push_back({rests, place});
+  for (const auto& place : places) frames.push_back({{0, 0, 0}, place});
   std::vector<Space> steps = through(frames);
   for (Space& step : steps) {
     for (BeadId b = 0; b < 2; ++b)
@@ -207,8 +208,8 @@ struct Wanderers {
   }
 };
 
-/// Returns the events of a run through frames whose beads are unwrapped, as lines in order, and counts those
-/// at the start.
+/// Returns the events of a run through frames whose beads are unwrapped, as sorted lines, with the pairs in
+/// contact at the start.
 std::vector<std::string> events_through(std::vector<Eigen::Matrix3Xd> frames, const Cell& cell) {
   UnwrappedBeads beads;
   for (Eigen::Matrix3Xd& frame : frames) beads.follow(frame, cell);
@@ -257,6 +258,125 @@ TEST(PeriodicContacts, OfASupercellAreEightTimesAsMany) {
   }
   EXPECT_EQ(events_through(copies, 2 * wanderers.cell).size(),
             8 * events_through(frames, wanderers.cell).size());
+}
+
+// The vector that a bead passes is longer at the end of the step than in the middle.
+TEST(PeriodicContacts, AcrossTheWallOfACellThatGrows) {
+  Space step = moving({{6, 0, 0}, {1.875, 0, 0}}, {{13.875, 0, 0}, {1.875, 0, 0}});
+  for (BeadId b = 0; b < 2; ++b)
+    for (int k = 0; k <= 1; ++k) step.set_radius(b, k, 0.125);
+  step.own_cell().set(box(8, 0, 0), box(12, 0, 0), 1);
+  expect_right(std::vector<Space>{step});
+  ContactRig<Space> rig(step, AuditMode::events, all_pairs(2));
+  rig.run();
+  EXPECT_EQ(rig.history.events.size(), 1U);
+}
+
+// One image of an inserted bead is in contact throughout, and another one begins later.
+TEST(PeriodicContacts, OfAnInsertedBeadCountOnce) {
+  std::vector<Space> steps =
+      through({{{0, 0, 0}, {0.5, 0, 0}}, {{0, 0, 0}, {0.5, 0, 0}}, {{0, 0, 0}, {1.5, 0, 0}}});
+  for (Space& step : steps) {
+    for (BeadId b = 0; b < 2; ++b)
+      for (int k = 0; k <= 1; ++k) step.set_radius(b, k, 1);
+    step.own_cell().set(box(3, 0, 0), box(3, 0, 0), 1);
+  }
+  for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
+    ContactRig<Space> rig(steps.front(), AuditMode::events, kernel, all_pairs(2));
+    rig.simulator.build();
+    rig.simulator.enter_step();
+    rig.simulator.run_until(Dyadic(0.5));
+    rig.structure.erase(1);
+    rig.simulator.leave_step();
+    rig.motion = steps.back();
+    rig.simulator.enter_step();
+    rig.simulator.run_until(Dyadic(0.25));
+    rig.structure.insert(1);
+    rig.simulator.leave_step();
+    rig.simulator.finish();
+    std::vector<std::string> kinds;
+    for (const Event& e : rig.history.events) kinds.emplace_back(rig.structure.kinds()[e.change.kind].name);
+    EXPECT_THAT(kinds, ElementsAre("end", "erase", "insert", "begin"));
+  }
+}
+
+/// Runs many beads, some of which are fast, with both kernels.
+void expect_kernels_agree(const Cell& start, const Cell& end, int beads, double usual, double fast) {
+  Random random(3);
+  Space step(static_cast<std::size_t>(beads));
+  for (BeadId b = 0; b < step.bead_count(); ++b) {
+    const Eigen::Vector3d share(uniform(random), uniform(random), uniform(random));
+    for (int axis = 0; axis < 3; ++axis) {
+      step.set_coordinate(b, 0, axis, (2 * start * share)[axis]);
+      step.set_coordinate(b, 1, axis,
+                          (2 * end * share)[axis] + (b % 50 == 0 ? fast : usual) * uniform(random));
+    }
+    for (int k = 0; k <= 1; ++k) step.set_radius(b, k, 0.75);
+  }
+  step.own_cell().set(start, end, 1);
+  std::vector<std::uint64_t> fingerprints;
+  for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
+    ContactRig<Space> rig(step, AuditMode::frames, kernel, all_pairs(step.bead_count()));
+    rig.run();
+    EXPECT_GT(rig.history.events.size(), 10U);
+    fingerprints.push_back(rig.simulator.fingerprint());
+  }
+  EXPECT_EQ(fingerprints[0], fingerprints[1]);
+}
+
+TEST(PeriodicContacts, ManyBeadsInAGridOfManyBins) {
+  const int beads = 60;
+  const Cell upright = box(12, 16, 20);
+  Cell skewed = upright;
+  skewed(0, 1) = 5;
+  skewed(0, 2) = -4;
+  skewed(1, 2) = 7;
+  expect_kernels_agree(upright, upright, beads, 4, 30);
+  expect_kernels_agree(skewed, skewed, beads, 3, 12);
+  expect_kernels_agree(upright, 1.25 * upright, beads, 4, 4);
+  expect_kernels_agree(upright, skewed, beads, 4, 20);
+  expect_kernels_agree(upright, 1.75 * upright, beads, 4, 4);  // too much for a grid
+}
+
+TEST(PeriodicContacts, CellsThatChangeTooMuchAreRefused) {
+  const auto run = [](const Cell& start, const Cell& end, double far) {
+    Space step = moving({{0, 0, 0}, {3, 0, 0}}, {{0, 0, 0}, {3 + far, 0, 0}});
+    for (BeadId b = 0; b < 2; ++b)
+      for (int k = 0; k <= 1; ++k) step.set_radius(b, k, 1);
+    step.own_cell().set(start, end, 1);
+    ContactRig<Space> rig(step, AuditMode::none, all_pairs(2));
+    rig.run();
+  };
+  EXPECT_NO_THROW(run(box(8, 8, 8), box(12, 12, 12), 1));
+  EXPECT_THROW(run(box(8, 8, 8), box(800, 8, 8), 1), InputError);
+  EXPECT_THROW(run(box(8, 8, 8), box(-8, 8, 8), 1), InputError);
+  EXPECT_THROW(run(box(8, 8, 8), box(8, 8, 8), 1e9), InputError);
+  EXPECT_THROW(run(box(0.01, 0.01, 0.01), box(0.01, 0.01, 0.01), 0), InputError);
+}
+
+// A shift is the exact sum of the cell's vectors.
+TEST(ShiftedBeads, AreExact) {
+  Random random(4);
+  for (int round = 0; round < 100; ++round) {
+    Space step(1);
+    Cell cell = Cell::Zero();
+    for (Eigen::Index i = 0; i < 3; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j)
+        cell(j, i) = uniform(random) * std::ldexp(100.0, -pick(random, 0, 20) * int{i != j});
+    step.own_cell().set(cell, cell, 1);
+    ShiftNumbers<3> shifts;
+    const CellShift<3> shift{pick(random, -1000, 1000), pick(random, -3, 3), pick(random, -1000000, 1000000)};
+    const std::uint32_t number = shifts.number_of(shift);
+    ShiftedBeads<3> beads(1);
+    beads.set(Curves<3>(step), shifts);
+    for (int axis = 0; axis < 3; ++axis) {
+      Rational sum = 0;
+      for (int v = 0; v < 3; ++v) sum += shift[static_cast<std::size_t>(v)] * Rational(cell(axis, v));
+      EXPECT_EQ(Rational(beads.coordinate(beads.to(number), 1, axis)) -
+                    Rational(beads.coordinate(beads.from(number), 1, axis)),
+                sum);
+    }
+  }
 }
 
 }  // namespace
