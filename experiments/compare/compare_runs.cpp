@@ -54,6 +54,7 @@ RunOptions run_of(const CompareOptions& options, std::size_t input, FrameMotion 
   run.motion = motion;
   run.reading = reading_of(options, input);
   run.radius = options.radius;
+  run.periodic = options.periodic;
   run.apart = options.apart;
   run.directions = options.directions;
   run.threads = options.threads;

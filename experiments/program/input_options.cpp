@@ -196,15 +196,16 @@ OptionList<InputOptions> make_input_options() {
        [](const InputOptions& o) { return Json(o.reading.until_damage); }},
       {{"--unwrap", "HOW",
         "how beads move through the walls of a periodic cell: chains (molecules are made whole and move as a "
-        "whole), beads (each to its nearest image of the frame before) or none (as the file has them) "
-        "(default: "
-        "chains, or beads for a file that names no molecules and whose beads are strewn over the cell)"},
+        "whole), beads (each bead moves to the image nearest to its place in the frame before) or none (as "
+        "the "
+        "file has them) (default: chains; beads for a file that names no molecules and whose consecutive "
+        "beads "
+        "are as far apart as in a fluid)"},
        [](InputOptions& o, const std::string& text) {
          o.reading.unwrap = choice_of("--unwrap", text, unwrap_names, Unwrap::none);
        },
        [](const InputOptions& o) { return std::string(o.reading.unwrap ? name_of(*o.reading.unwrap) : ""); }},
-      {{"--no-periodic", "",
-        "contacts of beads only, not of their images across the walls of a periodic cell"},
+      {{"--no-periodic", "", "ignore periodic images when contacts are found"},
        [](InputOptions& o, const std::string&) { o.periodic = false; },
        [](const InputOptions& o) { return o.periodic ? "" : "yes"; },
        nullptr,

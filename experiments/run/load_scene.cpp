@@ -258,8 +258,14 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
 }
 
 void warn_of_images(std::string_view what, const std::function<void(const std::string&)>& warn) {
-  warn(fmt::format("{} takes beads as they lie, without their images across the walls of the periodic cell",
-                   what));
+  warn(fmt::format("{} ignores the images of beads across the walls of the periodic cell", what));
+}
+
+void warn_of_cells(const Scene& scene, const InputOptions& input,
+                   const std::function<void(const std::string&)>& warn) {
+  if (input.periodic && !scene.lacks_images().empty())
+    warn(
+        fmt::format("contacts across the walls of the cell are not found, because {}", scene.lacks_images()));
 }
 
 Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn,
@@ -275,11 +281,11 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
     return Scene(std::move(*instance));
   }
   Scene scene = load_necklaces(input, options.motion, 1, warn, options.tolerance, lone_frame);
-  if (!scene.is_periodic()) return scene;
   for (const std::string& name :
        options.structures.empty() ? default_structures(scene) : options.structures) {
     const StructureSpec* const spec = structure_registry().find(name);
-    if (spec != nullptr && spec->lacks_images) warn_of_images(name, warn);
+    if (spec != nullptr && spec->lacks_images && scene.is_periodic()) warn_of_images(name, warn);
+    if (name == "contacts") warn_of_cells(scene, input, warn);
   }
   return scene;
 }

@@ -34,6 +34,8 @@ class _Source(TypedDict, total=False):
     chain: Optional[str]
     dt: Optional[float]
     until_damage: bool
+    unwrap: Optional[str]
+    no_periodic: bool
 
 class _Input(_Frames, _Source): ...
 
