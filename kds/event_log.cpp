@@ -129,8 +129,8 @@ class Scale {
   Rational begin_, length_;
 };
 
-/// Returns the number of most_digits digits that is nearest to all numbers from `least` to `most`, if doubles
-/// tell that there is one. Rounding is monotone, so both ends decide.
+/// If all numbers from `least` to `most` round to one number of most_digits digits, and doubles tell it,
+/// returns this number. Rounding is monotone, so both ends decide.
 std::optional<double> nearest_to_all(double least, double most) {
   if (!(least > 1e-250 && most < 1e250)) return std::nullopt;  // no overflow, and no underflow
   const auto text_of = [](double value) { return fmt::format("{:.{}e}", value, most_digits - 1); };

@@ -118,7 +118,8 @@ void NearImages<D>::measure(const Curves<D>& curves) {
       if (!lattice_.periodic[a]) continue;
       const double home = std::floor(share[static_cast<Eigen::Index>(a)]);
       if (!(std::abs(home) < ShiftNumbers<D>::most / 8))
-        throw InputError("a bead is more than 131,072 cells away from the origin; expected fewer");
+        throw InputError(
+            fmt::format("bead {} is more than 131,072 cells away from the origin; expected fewer", bead));
       homes_[bead][a] = static_cast<std::int32_t>(home);
     }
     double move = 0;
@@ -135,10 +136,15 @@ void NearImages<D>::measure(const Curves<D>& curves) {
 /// Returns the largest stray of a swept ball that the grid is laid for.
 template <int D>
 double NearImages<D>::stray_wanted() const {
-  double volume = 1;
-  for (int a = 0; a < D; ++a)
-    if (lattice_.periodic[static_cast<std::size_t>(a)]) volume *= lattice_.middle.col(a).norm();
-  const double spacing = std::pow(volume / std::max<double>(1, static_cast<double>(homes_.size())), 1.0 / D);
+  double volume = 1;  // of the periodic vectors
+  int rank = 0;
+  for (int a = 0; a < D; ++a) {
+    if (!lattice_.periodic[static_cast<std::size_t>(a)]) continue;
+    volume *= lattice_.middle.col(a).norm();
+    ++rank;
+  }
+  const double spacing =
+      std::pow(volume / std::max<double>(1, static_cast<double>(homes_.size())), 1.0 / rank);
   return std::max({0.5 * radius_, 0.125 * spacing, margin_});
 }
 
@@ -257,50 +263,50 @@ void NearImages<D>::fill_grid() {
     counts[a] = std::max(1.0, std::floor(length / (width * (1 + 0x1p-20))));
     wanted *= counts[a];
   }
-  // At most a few cells per swept ball.
+  // At most a few bins per swept ball.
   const double most = 4 * static_cast<double>(swept_.size()) + 64;
   for (; wanted > most; wanted = std::accumulate(counts.begin(), counts.end(), 1.0, std::multiplies<>()))
     for (double& count : counts) count = std::max(1.0, std::floor(count * std::pow(most / wanted, 1.0 / D)));
-  std::size_t cells = 1;
+  std::size_t bins = 1;
   for (std::size_t a = 0; a < dimension; ++a) {
-    cells_[a] = static_cast<std::int32_t>(counts[a]);
+    bins_[a] = static_cast<std::int32_t>(counts[a]);
     low_[a] = lattice_.periodic[a] ? 0 : low[a];
     const double length = lattice_.periodic[a] ? 1 : high[a] - low[a];
-    width_[a] = length / cells_[a];
+    width_[a] = length / bins_[a];
     const double within = std::ceil(width / (width_[a] * heights[a]) * (1 + 0x1p-30));
-    const bool is_alone = !lattice_.periodic[a] && cells_[a] == 1;
+    const bool is_alone = !lattice_.periodic[a] && bins_[a] == 1;
     if (!is_alone && !(within <= most_images))
       throw InputError(fmt::format(
           "two beads are within reach at a distance of {:.4g}, more than {} times the width of the periodic "
           "cell; expected a shorter reach",
           width, most_images));
     reach_[a] = is_alone ? 0 : static_cast<std::int32_t>(within);
-    cells *= static_cast<std::size_t>(cells_[a]);
+    bins *= static_cast<std::size_t>(bins_[a]);
   }
-  begins_.assign(cells + 1, 0);
-  groups_.assign(cells, 0);
-  in_cells_.resize(swept_.size());
+  begins_.assign(bins + 1, 0);
+  groups_.assign(bins, 0);
+  in_bins_.resize(swept_.size());
   for (std::size_t i = 0; i < swept_.size(); ++i) {
-    std::size_t cell = 0;
+    std::size_t bin = 0;
     for (std::size_t a = 0; a < dimension; ++a) {
       const double at = width_[a] > 0 ? (coordinate_of(swept_[i].center, a) - low_[a]) / width_[a] : 0;
-      const auto index = static_cast<std::int32_t>(std::clamp(std::floor(at), 0.0, cells_[a] - 1.0));
-      cell = cell * static_cast<std::size_t>(cells_[a]) + static_cast<std::size_t>(index);
+      const auto index = static_cast<std::int32_t>(std::clamp(std::floor(at), 0.0, bins_[a] - 1.0));
+      bin = bin * static_cast<std::size_t>(bins_[a]) + static_cast<std::size_t>(index);
     }
-    in_cells_[i] = static_cast<std::uint32_t>(cell);
-    ++begins_[cell + 1];
-    groups_[cell] |= swept_[i].groups;
+    in_bins_[i] = static_cast<std::uint32_t>(bin);
+    ++begins_[bin + 1];
+    groups_[bin] |= swept_[i].groups;
   }
   std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
   sorted_.resize(swept_.size());
   next_.assign(begins_.begin(), begins_.end() - 1);
-  for (std::size_t i = 0; i < swept_.size(); ++i) sorted_[next_[in_cells_[i]]++] = swept_[i];
+  for (std::size_t i = 0; i < swept_.size(); ++i) sorted_[next_[in_bins_[i]]++] = swept_[i];
 }
 
-// Looks at each pair of a cell and a cell not before it, counted across the walls, so that each pair of a
+// Looks at each pair of a bin and a bin not before it, counted across the walls, so that each pair of a
 // bead and an image is met once.
 template <int D>
-void NearImages<D>::compare_cells(bool list_overlapping, ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
+void NearImages<D>::compare_bins(bool list_overlapping, ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
   std::vector<Shift> offsets;
   Shift offset{};
   const auto fill = [&](const auto& self, std::size_t a) -> void {
@@ -312,36 +318,36 @@ void NearImages<D>::compare_cells(bool list_overlapping, ShiftNumbers<D>& shifts
     offset[a] = 0;
   };
   fill(fill, 0);
-  Shift cell{};
+  Shift bin{};
   for (std::size_t at = 0; at + 1 < begins_.size(); ++at) {
     InterruptionCheck::ask();
     if (begins_[at] != begins_[at + 1]) {
-      for (const Shift& by : offsets) compare(cell, at, by, list_overlapping, shifts, pairs);
+      for (const Shift& by : offsets) compare(bin, at, by, list_overlapping, shifts, pairs);
     }
     for (std::size_t a = dimension; a-- > 0;) {
-      if (++cell[a] < cells_[a]) break;
-      cell[a] = 0;
+      if (++bin[a] < bins_[a]) break;
+      bin[a] = 0;
     }
   }
 }
 
 template <int D>
-void NearImages<D>::compare(const Shift& cell, std::size_t at, const Shift& by, bool list_overlapping,
+void NearImages<D>::compare(const Shift& bin, std::size_t at, const Shift& by, bool list_overlapping,
                             ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
   Shift image{};
   std::size_t other_at = 0;
   Point moved{};
   for (std::size_t a = 0; a < dimension; ++a) {
-    std::int32_t index = cell[a] + by[a];
-    if (index < 0 || index >= cells_[a]) {
+    std::int32_t index = bin[a] + by[a];
+    if (index < 0 || index >= bins_[a]) {
       if (!lattice_.periodic[a]) return;
-      image[a] = index < 0 ? -((cells_[a] - 1 - index) / cells_[a]) : index / cells_[a];
-      index -= image[a] * cells_[a];
+      image[a] = index < 0 ? -((bins_[a] - 1 - index) / bins_[a]) : index / bins_[a];
+      index -= image[a] * bins_[a];
       for (std::size_t axis = 0; axis < dimension; ++axis)
         moved[axis] +=
             image[a] * lattice_.middle(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(a));
     }
-    other_at = other_at * static_cast<std::size_t>(cells_[a]) + static_cast<std::size_t>(index);
+    other_at = other_at * static_cast<std::size_t>(bins_[a]) + static_cast<std::size_t>(index);
   }
   if (begins_[other_at] == begins_[other_at + 1] || !PairsAsked::joins(groups_[at], groups_[other_at]))
     return;
@@ -454,7 +460,7 @@ void NearImages<D>::find(const Curves<D>& curves, bool list_overlapping, ShiftNu
     const double to = p + 1 == pieces ? 1 : static_cast<double>(p + 1) / static_cast<double>(pieces);
     enter_piece(curves, from, to, wanted);
     fill_grid();
-    compare_cells(list_overlapping, shifts, pairs);
+    compare_bins(list_overlapping, shifts, pairs);
   }
   if (pieces > 1 || in_parts_) {
     for (auto* const found : {&pairs.unclear, &pairs.overlapping}) {
@@ -466,9 +472,9 @@ void NearImages<D>::find(const Curves<D>& curves, bool list_overlapping, ShiftNu
 }
 
 // With d_k the differences of two beads' control points and R_k the vectors at these, an image t meets at
-// some time only if |R t + d| <= r. For a row n of the inverse of the vectors in the middle, n R t differs
-// from t's multiple by at most |n| strain |R' t|, R' in the middle, and |R' t| is at most (|d| + r) / (1 -
-// strain).
+// some time only if |R t + d| <= r. For row a of the inverse of the vectors in the middle, n, n R t differs
+// from t_a, the multiple of vector a, by at most |n| strain |M t|, M in the middle, and |M t| is at most (|d|
+// + r) / (1 - strain).
 template <int D>
 void NearImages<D>::find_by_boxes(const Curves<D>& curves, ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
   pairs.clear();

@@ -106,8 +106,8 @@ class NearImages {
   [[nodiscard]] std::pair<Point, double> ball_around(const double* points) const;
   void add_swept(BeadId bead, const double* points, double radius);
   void fill_grid();
-  void compare_cells(bool list_overlapping, ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
-  void compare(const Shift& cell, std::size_t at, const Shift& by, bool list_overlapping,
+  void compare_bins(bool list_overlapping, ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
+  void compare(const Shift& bin, std::size_t at, const Shift& by, bool list_overlapping,
                ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
   void look_at(const Swept& one, const Swept& other, const Shift& image, bool list_overlapping,
                ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
@@ -142,16 +142,16 @@ class NearImages {
   // The present piece of the step.
   std::vector<Eigen::Matrix3d> piece_;  // control points of the lattice
   std::vector<double> points_, radii_;  // those of each bead, its home moved to the origin
-  std::vector<Swept> swept_, sorted_;   // in the order of the beads, and by cells
+  std::vector<Swept> swept_, sorted_;   // in the order of the beads, and by bins
   bool in_parts_ = false;               // some bead has several swept balls
   bool is_whole_step_ = true;           // the step is not cut
   double wobble_ = 0;                   // added to the reach of images
   // The grid along the lattice's vectors: number of bins, bins within reach, first corner and width of a bin
   // in coordinates of the lattice, and where each bin begins in `sorted_`.
-  Shift cells_{}, reach_{};
+  Shift bins_{}, reach_{};
   Point low_{}, width_{};
-  std::vector<std::uint32_t> begins_, next_, in_cells_;
-  std::vector<std::uint8_t> groups_;  // that occur in each cell
+  std::vector<std::uint32_t> begins_, next_, in_bins_;
+  std::vector<std::uint8_t> groups_;  // that occur in each bin
   std::vector<Point> differences_;    // of two beads' control points
 };
 
