@@ -338,6 +338,28 @@ TEST(PeriodicContacts, ManyBeadsInAGridOfManyBins) {
   expect_kernels_agree(upright, 1.75 * upright, beads, 4, 4);  // too much for a grid
 }
 
+// Contacts between two groups are those of all pairs that join them, also with radii of their own.
+TEST(PeriodicContacts, OfTwoGroups) {
+  Random random(6);
+  const std::vector<Space> steps = random_steps<Space>(random, CellKind::skewed, 24, false);
+  const std::vector<double> radii(24, 1.5);
+  const auto events_of = [&](const PairsAsked& asked, const PairsAsked& counted) {
+    ContactRig<Space> rig(steps.front(), AuditMode::events, Kernel::filtered, asked, radii);
+    rig.run(steps);
+    std::vector<std::string> lines;
+    for (const Event& e : rig.history.events)
+      if (counted.asks({e.change.ids[0], e.change.ids[1]}))
+        lines.push_back(
+            text_of(int{e.change.kind}, " ", e.change.ids[0], " ", e.change.ids[1], " ", e.lower));
+    return lines;
+  };
+  PairsAsked groups = all_pairs(24);
+  for (unsigned b = 0; b < 24; ++b) groups.groups.push_back(static_cast<std::uint8_t>(b % 4));
+  const auto lines = events_of(groups, groups);
+  EXPECT_GT(lines.size(), 5U);
+  EXPECT_EQ(lines, events_of(all_pairs(24), groups));
+}
+
 TEST(PeriodicContacts, CellsThatChangeTooMuchAreRefused) {
   const auto run = [](const Cell& start, const Cell& end, double far) {
     Space step = moving({{0, 0, 0}, {3, 0, 0}}, {{0, 0, 0}, {3 + far, 0, 0}});
