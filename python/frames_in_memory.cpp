@@ -209,6 +209,17 @@ FramesOpened open_memory(const std::filesystem::path& path, const ReadOptions& o
 
 }  // namespace
 
+std::optional<Cell> cell_given(std::span<const double> numbers, int dimension) {
+  if (numbers.empty()) return std::nullopt;
+  std::string doubt;
+  std::optional<Cell> cell = cell_of(numbers, doubt);
+  if (!cell)
+    throw InputError(
+        fmt::format("cell: {}", doubt.empty() ? "expected three lengths above 1 and three angles" : doubt));
+  if (dimension == 2) cell->col(2).setZero();
+  return cell;
+}
+
 FramesInMemory::FramesInMemory(const py::array& positions, BeadsInMemory beads) {
   const std::string& label = beads.label;
   if (positions.ndim() != 3 || positions.shape(2) != 3)

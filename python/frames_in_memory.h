@@ -59,6 +59,11 @@ class FramesInMemory {
   std::filesystem::path path_;
 };
 
+/// Returns the cell that six numbers describe, three lengths and three angles in degrees, or nothing if there
+/// are no numbers. In two dimensions the third vector, upright on the plane, is left out. Throws InputError
+/// if it is not a cell.
+[[nodiscard]] std::optional<Cell> cell_given(std::span<const double> numbers, int dimension);
+
 /// Adds the format `memory` to the reader registry. Call it once.
 void add_memory_reader();
 

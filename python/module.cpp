@@ -120,18 +120,26 @@ void bind_run(py::module_& module) {
            }),
            py::arg("arguments"), py::arg("more"), py::arg("memory"))
       .def(py::init([](const kds::Arguments& arguments, const PythonOptions& more, int dimension,
-                       std::vector<std::size_t> necklaces, std::vector<double> radii) {
+                       std::vector<std::size_t> necklaces, std::vector<double> radii,
+                       const std::vector<double>& cell) {
              kds::PushedFrames frames;
+             frames.cell = kds::python::cell_given(cell, dimension);
              frames.dimension = dimension;
              frames.necklaces = std::move(necklaces);
              frames.radii = std::move(radii);
              return std::make_unique<RunHandle>(arguments, more, std::move(frames));
            }),
            py::arg("arguments"), py::arg("more"), py::arg("dimension"), py::arg("necklaces"),
-           py::arg("radii"))
+           py::arg("radii"), py::arg("cell"))
       .def("execute", &RunHandle::execute, py::arg("progress") = py::none())
       .def("write_view", &RunHandle::write_view)
-      .def("push", &RunHandle::push, py::arg("frame"), py::arg("picoseconds") = py::none())
+      .def(
+          "push",
+          [](RunHandle& run, const RunHandle::Frame& frame, std::optional<double> picoseconds,
+             const std::vector<double>& cell) {
+            run.push(frame, picoseconds, kds::python::cell_given(cell, run.scene().dimension()));
+          },
+          py::arg("frame"), py::arg("picoseconds"), py::arg("cell"))
       .def("build", &RunHandle::build)
       .def("step", &RunHandle::step)
       .def("next_event", &RunHandle::next_event)

@@ -228,11 +228,10 @@ void RunHandle::write_view() {
   view_.reset();
 }
 
-void RunHandle::push(const py::array_t<double, py::array::c_style | py::array::forcecast>& frame,
-                     std::optional<double> picoseconds) {
+void RunHandle::push(const Frame& frame, std::optional<double> picoseconds, const std::optional<Cell>& cell) {
   const std::span numbers(frame.data(), static_cast<std::size_t>(frame.size()));
   const Use use(*this);
-  run_->push(numbers, picoseconds);
+  run_->push(numbers, picoseconds, cell);
 }
 
 void RunHandle::build() {

@@ -56,8 +56,8 @@ class RunHandle {
   void write_view();
 
   // The functions of KineticRun. Each one is refused while another thread uses the run.
-  void push(const pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>& frame,
-            std::optional<double> picoseconds);
+  using Frame = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+  void push(const Frame& frame, std::optional<double> picoseconds, const std::optional<Cell>& cell);
   void build();
   [[nodiscard]] bool step();
   [[nodiscard]] bool next_event();

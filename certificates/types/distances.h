@@ -11,28 +11,53 @@
 namespace kds {
 
 /// Compares two pairs of beads: the centres of the first pair are closer together than those of the second,
-/// |c - d|^2 - |a - b|^2 > 0.
+/// |c - d|^2 - |a - b|^2 > 0. In a periodic cell, the second bead of a pair may be moved by a shift, given
+/// exactly as the difference of two points (shifted_beads.h).
 struct Closer {
   static constexpr CertificateType type{12, "closer"};
   static constexpr int lanes_up_to_degree = 3;
 
-  std::array<BeadId, 4> beads{};  ///< the lesser pair, ascending, then the other; the pairs may share a bead
+  struct Pair {
+    std::array<BeadId, 2> beads{};  ///< ascending
+    std::array<BeadId, 2> shift =
+        no_shift;  ///< the points `to` and `from` of the second bead's shift to - from
+    friend auto operator<=>(const Pair&, const Pair&) = default;
+  };
+  static constexpr std::array<BeadId, 2> no_shift{no_bead, no_bead};
+
+  /// The lesser pair and the shift of its second bead, then the other pair and its shift. Without a shift, a
+  /// bead takes the place of both points. The pairs may share beads.
+  std::array<BeadId, 8> beads{};
   int sign = 1;
 
   Closer() = default;
-  /// Holds while the first pair is closer. Both pairs must be ascending.
-  Closer(std::array<BeadId, 2> near, std::array<BeadId, 2> far) : sign(near < far ? 1 : -1) {
-    const auto& [lesser, greater] = std::minmax(near, far);
-    beads = {lesser[0], lesser[1], greater[0], greater[1]};
+  /// Holds while the first pair is closer.
+  Closer(const Pair& near, const Pair& far) : sign(near < far ? 1 : -1) {
+    std::size_t at = 0;
+    for (const Pair& pair : {std::min(near, far), std::max(near, far)}) {
+      for (const BeadId bead : pair.beads) beads[at++] = bead;
+      for (const BeadId point : pair.shift) beads[at++] = point == no_bead ? pair.beads[0] : point;
+    }
   }
 
-  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
+  [[nodiscard]] Identity identity() const {
+    Identity identity = identity_of(type, std::array<BeadId, 4>{beads[0], beads[1], beads[4], beads[5]});
+    // Behind the end of the beads that messages name.
+    if (beads[2] != beads[3]) identity.beads[5] = beads[2];
+    if (beads[6] != beads[7]) identity.beads[6] = beads[6];
+    return identity;
+  }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 
   template <MotionView View>
-  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 4>& beads) {
-    const auto lesser = view.difference(beads[1], beads[0]), greater = view.difference(beads[3], beads[2]);
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 8>& beads) {
+    auto lesser = view.difference(beads[1], beads[0]), greater = view.difference(beads[5], beads[4]);
+    const auto shift = view.difference(beads[2], beads[3]), other = view.difference(beads[6], beads[7]);
+    for (std::size_t axis = 0; axis < lesser.size(); ++axis) {
+      lesser[axis] += shift[axis];
+      greater[axis] += other[axis];
+    }
     return dot(greater, greater) - dot(lesser, lesser);
   }
 };

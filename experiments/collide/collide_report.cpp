@@ -131,11 +131,14 @@ PairsCsv::PairsCsv(std::ostream& stream, const CollideFrames& scene) : stream_(s
 
 void PairsCsv::add(const FrameRead& frame, std::span<const BeadPair> pairs) {
   const auto center = [&](BeadId b) -> Eigen::Vector3d { return frame.positions.col(Eigen::Index{b}); };
+  const std::optional<Images> images = frame.cell ? std::optional<Images>(*frame.cell) : std::nullopt;
   const std::vector<double>& radii = scene_.radii();
   std::string time = scene_.has_times() ? "," : "";
   if (scene_.has_times() && frame.stamp.picoseconds) time += fmt::to_string(*frame.stamp.picoseconds);
   for (const auto& [i, j] : pairs) {
-    const double distance = (center(i) - center(j)).stableNorm() - (radii[i] + radii[j]);
+    Eigen::Vector3d difference = center(i) - center(j);
+    if (images) difference = images->shifted(difference, images->nearest(difference));
+    const double distance = difference.stableNorm() - (radii[i] + radii[j]);
     stream_ << fmt::format("{},{},{},{},{},{}{}\n", frame.stamp.number, i, j, distance,
                            quoted(scene_.bead_name(i)), quoted(scene_.bead_name(j)), time);
   }

@@ -16,6 +16,7 @@
 #include "structures/collision/brute_force.h"
 #include "structures/collision/cell_list.h"
 #include "structures/collision/hierarchy_search.h"
+#include "structures/images/image_pairs.h"
 #include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
@@ -23,9 +24,11 @@ namespace kds {
 CollideFrames::CollideFrames(const InputOptions& options, const std::function<void(const std::string&)>& warn)
     : frames_(open_frames(options, warn)) {
   const FrameSurvey survey = survey_frames(*frames_, options.radius == "auto", warn);
-  if (survey.periodic && options.periodic) warn_of_images("collide", warn);
   radii_ = bead_radii(options.radius, frames_->necklaces(), survey);
   plane_ = survey.plane;
+  periodic_ = survey.periodic;
+  if (options.periodic && !survey.lacks_images.empty())
+    warn(fmt::format("pairs across the walls of the cell are not found, because {}", survey.lacks_images));
   truncated_ = survey.truncated;
   frame_count_ = survey.frame_count;
   first_ = survey.first;
@@ -39,6 +42,8 @@ CollideFrames::CollideFrames(const InputOptions& options, const std::function<vo
 bool CollideFrames::next(FrameRead& frame) {
   if (!frames_->next(frame)) return false;
   if (plane_) plane_->lay(frame.positions);
+  if (!periodic_) frame.cell.reset();
+  if (plane_ && frame.cell) frame.cell = plane_->laid(*frame.cell);
   return true;
 }
 
@@ -49,21 +54,26 @@ class BruteForce final : public Detector<Dimension> {
  public:
   explicit BruteForce(const CollisionQuery& query) : query_(query) {}
   std::optional<std::string> refusal(const Balls<Dimension>&) const override {
-    constexpr std::uint64_t most = 45'000'000'000;  // of 300,000 beads; takes half a minute per frame
+    // Of 300,000 beads, or 45,000 in a cell; takes half a minute per frame.
+    const std::uint64_t most = cell_ ? 1'000'000'000 : 45'000'000'000;
     const std::uint64_t pairs = PairsInQuestion(query_.asked).count();
     if (pairs <= most) return std::nullopt;
     return fmt::format("looks at {} pairs of beads; expected {} or fewer", with_thousands(pairs),
                        with_thousands(most));
   }
+  void set_cell(const std::optional<Cell>& cell) override { cell_ = cell; }
   void detect(const Balls<Dimension>& balls, Detection& found) override {
-    found.pairs = pairs_by_force(balls, query_.asked, query_.distance);
+    found.pairs = cell_ ? image_pairs_by_force(balls, *cell_, query_.asked, query_.distance)
+                        : pairs_by_force(balls, query_.asked, query_.distance);
   }
   void find_closest(const Balls<Dimension>& balls, Detection& found) override {
-    found.closest = closest_pair_by_force(balls, query_.asked);
+    found.closest = cell_ ? closest_images_by_force(balls, *cell_, query_.asked)
+                          : closest_pair_by_force(balls, query_.asked);
   }
 
  private:
   CollisionQuery query_;
+  std::optional<Cell> cell_;
 };
 
 template <int Dimension, Hierarchy kind>
@@ -92,14 +102,17 @@ using Layered = BySpheres<Dimension, Hierarchy::layered>;
 template <int Dimension>
 class Cells final : public Detector<Dimension> {
  public:
-  explicit Cells(const CollisionQuery& query) : distance_(query.distance), cells_(query.asked) {}
+  explicit Cells(const CollisionQuery& query) : query_(query), cells_(query.asked) {}
+  void set_cell(const std::optional<Cell>& cell) override { cell_ = cell; }
   void detect(const Balls<Dimension>& balls, Detection& found) override {
-    found.pairs = cells_.pairs_within(balls, distance_);
+    found.pairs = cell_ ? image_pairs_by_cells(balls, *cell_, query_.asked, query_.distance)
+                        : cells_.pairs_within(balls, query_.distance);
   }
 
  private:
-  double distance_;
+  CollisionQuery query_;
   CellList<Dimension> cells_;
+  std::optional<Cell> cell_;
 };
 
 template <int Dimension>
@@ -123,15 +136,16 @@ std::unique_ptr<Detector<Dimension>> make(const CollisionQuery& query) {
   return std::make_unique<Made<Dimension>>(query);
 }
 template <template <int> class Made>
-constexpr Method method(std::string_view name, std::string_view about, bool takes_groups = false) {
-  return {name, about, takes_groups, make<2, Made>, make<3, Made>};
+constexpr Method method(std::string_view name, std::string_view about, bool takes_groups = false,
+                        bool takes_images = false) {
+  return {name, about, takes_groups, takes_images, make<2, Made>, make<3, Made>};
 }
 
 constexpr std::array kMethods{
-    method<BruteForce>("brute", "all pairs of beads", true),
+    method<BruteForce>("brute", "all pairs of beads", true, true),
     method<Wrapped>("wrapped", "hierarchy of minimum enclosing spheres"),
     method<Layered>("layered", "hierarchy of spheres around spheres"),
-    method<Cells>("cells", "cell list", true),
+    method<Cells>("cells", "cell list", true, true),
     method<Auto>("auto", "blocks, and near pairs kept from frame to frame"),
 };
 
@@ -152,11 +166,11 @@ std::optional<std::string> difference(const Detection& a, const Detection& b) {
   return std::nullopt;
 }
 
-// Returns the methods that take groups of beads, as in "brute or cells".
-std::string names_with_groups(std::string_view between = " or ") {
+// Returns the methods that take all of this, as in "brute or cells".
+std::string names_of_methods(bool groups, bool images, std::string_view between) {
   std::vector<std::string_view> names;
   for (const Method& method : kMethods)
-    if (method.takes_groups) names.push_back(method.name);
+    if ((method.takes_groups || !groups) && (method.takes_images || !images)) names.push_back(method.name);
   return fmt::format("{}", fmt::join(names, between));
 }
 
@@ -173,11 +187,11 @@ class Comparison {
     for (std::size_t k = 0; frames_.next(frame); ++k) {
       if (k == 0) {
         balls = Balls<Dimension>(frame.positions, frames_.radii());
-        make_detectors(balls, warn);
+        make_detectors(balls, frame.cell, warn);
       } else {
         balls.move_to(frame.positions);
       }
-      const std::vector<Detection> found = detect(balls, frame.stamp);
+      const std::vector<Detection> found = detect(balls, frame);
       const FrameFound all = common(frame.stamp, found);
       ++report_.frames;
       if (all.pairs > 0) ++report_.colliding_frames;
@@ -192,21 +206,28 @@ class Comparison {
   }
 
  private:
-  void make_detectors(const Balls<Dimension>& balls, const std::function<void(const std::string&)>& warn) {
-    std::vector<std::string_view> without_groups;
+  void make_detectors(const Balls<Dimension>& balls, const std::optional<Cell>& cell,
+                      const std::function<void(const std::string&)>& warn) {
+    const bool groups = !task_.query.asked.groups.empty(), images = cell.has_value();
+    const std::string looks_at = groups ? fmt::format("all pairs, not at {}", "--groups"_arg)
+                                        : "beads as they lie, not at their images in the periodic cell";
+    std::vector<std::string_view> left_out;
     for (const Method* method : task_.methods) {
       std::unique_ptr<Detector<Dimension>> detector;
       std::optional<std::string> refusal;
-      if (task_.query.asked.groups.empty() || method->takes_groups) {
+      const bool lacks_groups = groups && !method->takes_groups;
+      if (!lacks_groups && (!images || method->takes_images)) {
         detector = method->make<Dimension>(task_.query);
+        detector->set_cell(cell);
         refusal = detector->refusal(balls);
       } else {
         if (task_.leave_out_refusing) {
-          without_groups.push_back(method->name);
+          left_out.push_back(method->name);
           continue;
         }
         refusal =
-            fmt::format("it looks at all pairs, not at {}; expected {}", "--groups"_arg, names_with_groups());
+            fmt::format("it looks at {}; expected {}{}", looks_at, names_of_methods(groups, images, " or "),
+                        lacks_groups ? "" : fmt::format(", or {}", "--no-periodic"_arg));
       }
       if (refusal) {
         if (!task_.leave_out_refusing)
@@ -223,17 +244,19 @@ class Comparison {
       CollideRow& row = report_.rows.emplace_back();
       row.method = method->name;
     }
-    if (!without_groups.empty())
-      warn(fmt::format("{}: the methods {} look at all pairs and are left out; {} are compared",
-                       "--groups"_arg, fmt::join(without_groups, ", "), names_with_groups(" and ")));
+    if (!left_out.empty())
+      warn(fmt::format("the methods {} look at {}, and are left out; {} are compared",
+                       fmt::join(left_out, ", "), looks_at, names_of_methods(groups, images, " and ")));
   }
 
-  std::vector<Detection> detect(const Balls<Dimension>& balls, const FrameStamp& stamp) {
+  std::vector<Detection> detect(const Balls<Dimension>& balls, const FrameRead& frame) {
+    const FrameStamp& stamp = frame.stamp;
     std::vector<Detection> found(methods_.size());
     for (std::size_t round = 0; round < task_.rounds; ++round)
       for (std::size_t m = 0; m < methods_.size(); ++m) {
         Detector<Dimension>& detector = *methods_[m].detectors[round];
         found[m] = {};
+        detector.set_cell(frame.cell);
         methods_[m].seconds[round] += seconds_of<WallClock>([&] { detector.detect(balls, found[m]); });
         methods_[m].closest_seconds[round] +=
             seconds_of<WallClock>([&] { detector.find_closest(balls, found[m]); });

@@ -15,6 +15,7 @@
 #include "experiments/program/input_options.h"
 #include "experiments/program/timing.h"
 #include "motions/base/bead.h"
+#include "motions/frames/periodic.h"
 #include "motions/scene/frame_survey.h"
 #include "structures/collision/closest_pair.h"
 #include "structures/necklace/balls.h"
@@ -43,6 +44,8 @@ class Detector {
   [[nodiscard]] virtual std::optional<std::string> refusal(const Balls<Dimension>&) const {
     return std::nullopt;
   }
+  /// Sets the cell of the next frame, for methods that take images.
+  virtual void set_cell(const std::optional<Cell>&) {}
   /// Finds the collisions of the next frame. The method may keep data from one frame to the next.
   virtual void detect(const Balls<Dimension>& balls, Detection& found) = 0;
   /// Finds the closest pair, if that needs a separate search. Call `detect` with these balls first.
@@ -56,13 +59,15 @@ class CollideFrames {
   /// input.
   CollideFrames(const InputOptions& options, const std::function<void(const std::string&)>& warn);
 
-  /// Reads the next frame. Returns false after the last frame. For a planar scene, the positions are in the
-  /// plane's coordinates and the third coordinate is zero.
+  /// Reads the next frame. Returns false after the last frame. For a planar scene, positions and cell are in
+  /// the plane's coordinates and the third coordinate is zero. The frame has a cell only if all frames have.
   [[nodiscard]] bool next(FrameRead& frame);
 
   /// Returns 2 if all beads stay in one plane x, y or z = constant in all frames, else 3.
   [[nodiscard]] int dimension() const { return plane_ ? 2 : 3; }
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
+  /// Returns whether two beads are as near as their nearest images in a periodic cell.
+  [[nodiscard]] bool is_periodic() const { return periodic_; }
   [[nodiscard]] bool is_truncated() const { return truncated_; }
   /// Returns whether the first frame has a time.
   [[nodiscard]] bool has_times() const { return first_.picoseconds.has_value(); }
@@ -83,6 +88,7 @@ class CollideFrames {
  private:
   std::unique_ptr<FrameSource> frames_;
   std::optional<AxisPlane> plane_;
+  bool periodic_ = false;
   std::size_t frame_count_ = 0;
   FrameStamp first_, last_;
   bool truncated_ = false;
@@ -99,6 +105,7 @@ struct Method {
   std::string_view name;
   std::string_view about;  ///< a short description
   bool takes_groups;       ///< can look at pairs of two groups of beads only
+  bool takes_images;       ///< finds images in a periodic cell
   std::unique_ptr<Detector<2>> (*in_plane)(const CollisionQuery&);
   std::unique_ptr<Detector<3>> (*in_space)(const CollisionQuery&);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <variant>
 
+#include "structures/closest/candidate_pairs.h"
 #include "structures/closest/kinetic_closest_pair.h"
 #include "structures/closest/least_distance.h"
 
@@ -22,6 +23,21 @@ std::optional<ClosestApproach> closer(const std::optional<ClosestApproach>& earl
   least.distance.lower = std::min(earlier->distance.lower, later->distance.lower);
   return least;
 }
+
+namespace {
+
+/// Calls look(least distance) for the pair, or for each of its images that may be the nearest in the step.
+template <int Dimension, class Look>
+void each_image(const Curves<Dimension>& curves, BeadId a, BeadId b, const Look& look) {
+  if (curves.cell() == nullptr) return look(least_distance(curves, a, b));
+  std::vector<char> others(curves.bead_count(), 1);
+  others[a] = others[b] = 0;
+  ShiftNumbers<Dimension> shifts;
+  for (const ImagePair& image : candidate_images(curves, shifts, others))
+    look(least_distance(curves, a, b, shifts.shift(image.shift)));
+}
+
+}  // namespace
 
 ClosestApproachOfRun::ClosestApproachOfRun(KineticRun& run, std::size_t structure)
     : run_(run), structure_(structure) {
@@ -42,12 +58,13 @@ void ClosestApproachOfRun::end_step(std::size_t frame) {
   std::visit(
       [&]<int Dimension>(const MotionRef<Dimension>& ref) {
         if constexpr (Dimension > 1) {
-          for (const auto& [a, b] : pairs_) {
-            const LeastDistance nearest = least_distance(ref.curves(), a, b);
-            if (!least_) least_ = {{a, b}, frame, nearest.at, {nearest.lower, nearest.upper}};
-            least_->distance.lower = std::min(least_->distance.lower, nearest.lower);
-            if (nearest.upper < least_->distance.upper)
-              least_ = {{a, b}, frame, nearest.at, {least_->distance.lower, nearest.upper}};
+          for (const std::array<BeadId, 2>& pair : pairs_) {
+            each_image(ref.curves(), pair[0], pair[1], [&](const LeastDistance& nearest) {
+              if (!least_) least_ = {pair, frame, nearest.at, {nearest.lower, nearest.upper}};
+              least_->distance.lower = std::min(least_->distance.lower, nearest.lower);
+              if (nearest.upper < least_->distance.upper)
+                least_ = {pair, frame, nearest.at, {least_->distance.lower, nearest.upper}};
+            });
           }
         }
       },

@@ -162,12 +162,25 @@ bool MemoryFrames::next(FrameRead& frame) {
   return true;
 }
 
-FrameQueue::FrameQueue(std::vector<NecklaceBeads> necklaces, int dimension)
+namespace {
+
+/// Returns whether the same vectors of both cells span something.
+bool have_same_vectors(const Cell& a, const Cell& b) {
+  for (Eigen::Index vector = 0; vector < 3; ++vector)
+    if (a.col(vector).isZero(0) != b.col(vector).isZero(0)) return false;
+  return true;
+}
+
+}  // namespace
+
+FrameQueue::FrameQueue(std::vector<NecklaceBeads> necklaces, int dimension, std::optional<Cell> cell)
     : necklaces_(std::move(necklaces)),
       beads_(count_beads(necklaces_)),
-      columns_(static_cast<std::size_t>(dimension)) {}
+      columns_(static_cast<std::size_t>(dimension)),
+      cell_(std::move(cell)) {}
 
-void FrameQueue::push(std::span<const double> coordinates, std::optional<double> picoseconds) {
+void FrameQueue::push(std::span<const double> coordinates, std::optional<double> picoseconds,
+                      const std::optional<Cell>& cell) {
   if (!open_) throw std::logic_error("a frame is pushed after the last one");
   if (coordinates.size() != columns_ * beads_)
     throw InputError(
@@ -179,13 +192,21 @@ void FrameQueue::push(std::span<const double> coordinates, std::optional<double>
     throw InputError(fmt::format("frame {}, bead {}: expected finite coordinates, found {}", pushed_,
                                  i / columns_, coordinates[i]));
   }
+  if (cell && !(cell_ && have_same_vectors(*cell, *cell_)))
+    throw InputError(
+        fmt::format("frame {}: expected a cell that is periodic along the same vectors as the "
+                    "run's, or none if the run has none",
+                    pushed_));
+  if (cell) cell_ = continued(*cell, *cell_);
   FrameRead& frame = waiting_.emplace_back();
   frame.stamp = {pushed_++, picoseconds};
+  frame.cell = cell_;
   frame.positions.swap(spare_);
   frame.positions.setZero(3, static_cast<Eigen::Index>(beads_));
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     frame.positions(static_cast<Eigen::Index>(i % columns_), static_cast<Eigen::Index>(i / columns_)) =
         coordinates[i];
+  if (cell_) paths_.follow(frame.positions, *cell_);
 }
 
 bool FrameQueue::next(FrameRead& frame) {

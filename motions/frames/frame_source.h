@@ -20,6 +20,7 @@
 
 #include "motions/base/bead.h"
 #include "motions/frames/frame_reader.h"
+#include "motions/frames/periodic.h"
 #include "motions/frames/trajectory.h"
 
 namespace kds {
@@ -102,16 +103,20 @@ class MemoryFrames final : public FrameSource {
   bool truncated_ = false;
 };
 
-/// Frames that the caller pushes. Each frame is handed out once and not kept.
+/// Frames that the caller pushes. Each frame is handed out once and not kept. In a periodic cell, each bead
+/// is moved to the image nearest to its place in the frame before (UnwrappedBeads).
 class FrameQueue final : public FrameSource {
  public:
-  /// Frames have `dimension` coordinates per bead, 1 to 3. The others are zero.
-  FrameQueue(std::vector<NecklaceBeads> necklaces, int dimension);
+  /// Frames have `dimension` coordinates per bead, 1 to 3. The others are zero. `cell` is the cell of the
+  /// first frame, if beads are in one.
+  FrameQueue(std::vector<NecklaceBeads> necklaces, int dimension, std::optional<Cell> cell = std::nullopt);
 
-  /// Appends a frame: the coordinates of bead 0, then those of bead 1 and so on. Throws InputError, and
-  /// ignores the frame, if the number of coordinates is wrong or one is not finite. Throws std::logic_error
-  /// after end().
-  void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
+  /// Appends a frame: the coordinates of bead 0, then those of bead 1 and so on. Its cell is that of the
+  /// frame before, unless another is given. Throws InputError, and ignores the frame, if the number of
+  /// coordinates is wrong, if one is not finite, or if the cell is periodic along other vectors than before.
+  /// Throws std::logic_error after end().
+  void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt,
+            const std::optional<Cell>& cell = std::nullopt);
   /// Declares that no further frame follows.
   void end() { open_ = false; }
 
@@ -123,6 +128,8 @@ class FrameQueue final : public FrameSource {
  private:
   std::vector<NecklaceBeads> necklaces_;
   std::size_t beads_, columns_;
+  std::optional<Cell> cell_;  // of the last frame
+  UnwrappedBeads paths_;
   std::deque<FrameRead> waiting_;  // pushed and not handed out
   std::size_t pushed_ = 0;         // number of frames
   Eigen::Matrix3Xd spare_;         // memory for the next frame

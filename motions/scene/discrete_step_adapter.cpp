@@ -23,9 +23,10 @@ DiscreteStepAdapter::DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, co
       last_(survey.last) {}
 
 DiscreteStepAdapter::DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, int dimension,
-                                         FrameMotion motion)
+                                         FrameMotion motion, bool periodic)
     : source_(std::move(frames)),
       motion_(motion),
+      periodic_(periodic),
       dimension_(dimension),
       beads_(count_beads(source_->necklaces())) {}
 

@@ -43,8 +43,9 @@ class DiscreteStepAdapter final : public StepSource {
   /// Adapts frames that have been surveyed. `survey` must be that of the source, or of a source with the same
   /// frames. If the survey found a plane, the motion is two-dimensional.
   DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey, FrameMotion motion);
-  /// Adapts frames that are still to come. These frames have `dimension` coordinates.
-  DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, int dimension, FrameMotion motion);
+  /// Adapts frames that are still to come. These frames have `dimension` coordinates, and all of them a cell
+  /// if they are `periodic`.
+  DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, int dimension, FrameMotion motion, bool periodic);
 
   [[nodiscard]] int dimension() const override { return dimension_; }
   [[nodiscard]] int degree() const override { return motion_ == FrameMotion::hermite ? 3 : 1; }

@@ -84,9 +84,14 @@ Scene::Scene(PushedFrames frames) : radii_(std::move(frames.radii)), has_radii_(
           fmt::format("bead {}: expected a radius that is not negative, found {}", bead, radii_[bead]));
   check_radii(radii_);
   radii_.resize(beads, 0);
-  auto queue = std::make_unique<FrameQueue>(std::move(necklaces), dimension);
+  periodic_ = frames.cell.has_value();
+  if (periodic_ && (dimension < 2 ||
+                    (dimension == 2 && !(frames.cell->col(2).isZero(0) && frames.cell->row(2).isZero(0)))))
+    throw InputError(fmt::format("a periodic cell in {}: expected vectors in the plane or in space",
+                                 counted(static_cast<std::size_t>(dimension), "dimension")));
+  auto queue = std::make_unique<FrameQueue>(std::move(necklaces), dimension, frames.cell);
   pushed_ = queue.get();
-  steps_ = std::make_unique<DiscreteStepAdapter>(std::move(queue), dimension, frames.motion);
+  steps_ = std::make_unique<DiscreteStepAdapter>(std::move(queue), dimension, frames.motion, periodic_);
 }
 
 Scene::Scene(Instance instance, std::vector<double> radii)
@@ -107,9 +112,10 @@ Scene::Scene(Instance instance, std::vector<double> radii)
   steps_ = std::move(step);
 }
 
-void Scene::push(std::span<const double> coordinates, std::optional<double> picoseconds) {
+void Scene::push(std::span<const double> coordinates, std::optional<double> picoseconds,
+                 const std::optional<Cell>& cell) {
   if (pushed_ == nullptr) throw std::logic_error("a frame is pushed to a scene that has frames of its own");
-  pushed_->push(coordinates, picoseconds);
+  pushed_->push(coordinates, picoseconds, cell);
   steps_->read_on();
 }
 

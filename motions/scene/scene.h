@@ -34,6 +34,9 @@ struct PushedFrames {
   std::vector<std::size_t> necklaces = {};  ///< number of beads in each necklace
   std::vector<double> radii = {};           ///< one per bead, or one for all; empty: points
   FrameMotion motion = FrameMotion::linear;
+  /// The cell of the first frame, in two or three dimensions, if beads are in a periodic cell. Each bead then
+  /// moves to the image nearest to its place in the frame before.
+  std::optional<Cell> cell = std::nullopt;
 };
 
 class Scene {
@@ -59,9 +62,10 @@ class Scene {
   explicit Scene(PushedFrames frames);
 
   /// Appends a frame: the coordinates of bead 0, then those of bead 1 and so on, `dimension` numbers each.
-  /// Throws InputError, and ignores the frame, if the number of coordinates is wrong or one is not finite.
-  /// Throws std::logic_error if the scene has frames of its own or has ended.
-  void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
+  /// `cell` is its cell, if it has another one than the frame before. Throws InputError, and ignores the
+  /// frame, like FrameQueue::push. Throws std::logic_error if the scene has frames of its own or has ended.
+  void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt,
+            const std::optional<Cell>& cell = std::nullopt);
   /// Declares that no further frame follows.
   void end_frames();
   /// Returns the number of steps whose motion is known. The motion of every step is known, except in a scene

@@ -14,6 +14,16 @@ def _warn_of_threads(options):
         warn([f"threads {options['threads']}: the run takes one thread, because it is driven from outside"])
 
 
+def _cell(name, cell):
+    """Returns the six numbers of a cell, or none."""
+    if cell is None:
+        return []
+    found = np.ravel(numbers(name, cell)).astype(float)
+    if found.shape != (6,) or not np.all(np.isfinite(found)):
+        raise InputError(f"{name}: expected three lengths in angstrom and three angles in degrees, found {cell!r}")
+    return found.tolist()
+
+
 _NOT_PUSHED = [name for name in OF_THE_INPUT if name not in ("radius", "necklaces")]
 
 
@@ -46,11 +56,16 @@ class KineticRun:
 
     @classmethod
     @takes("run", without=_NOT_PUSHED)
-    def pushed(cls, beads, radius=None, *, dimension=3, necklaces=None, cutoff=None, surface=False, only=None, **options):
+    def pushed(cls, beads, radius=None, *, dimension=3, necklaces=None, cell=None, cutoff=None, surface=False, only=None,
+               **options):
         """Returns a run over frames that are pushed one by one. Only the frames of one step are kept.
 
         ``beads`` is their number, ``radius`` a number in angstrom or one for each bead (default: points without radii),
         ``dimension`` 1 to 3, ``necklaces`` the number of beads of each necklace. Name the ``structures``.
+
+        ``cell`` is the periodic cell, three lengths and three angles as ``dimensions`` of MDAnalysis. Contacts and the
+        closest pair are then those of nearest images, and each bead moves to the image nearest to its place in the
+        frame before.
         """
         self = cls.__new__(cls)
         check_names(KineticRun.pushed, options)
@@ -64,17 +79,17 @@ class KineticRun:
             raise InputError(f"necklaces: have {sum(counts)} beads; expected {beads}")
         _warn_of_threads(options)
         self._core = _kds.Run(run_arguments(cutoff, surface, options), more_options(only),
-                              whole("dimension", dimension, 1), counts, radii)
+                              whole("dimension", dimension, 1), counts, radii, _cell("cell", cell))
         self._source = None
         self._clock = Clock(0, 1)
         self._pushed = 0
         self._time = None
         return self
 
-    def push(self, positions, time=None):
+    def push(self, positions, time=None, cell=None):
         """Adds the next frame, an array (beads, dimension) in angstrom, and runs all steps that are then known.
 
-        ``time`` is in picoseconds. Returns the events of these steps. A wrong frame raises InputError and changes
+        ``time`` is in picoseconds. ``cell`` is the frame's cell if the run has one and it changes. Returns the events of these steps. A wrong frame raises InputError and changes
         nothing.
         """
         if self._source is not None:
@@ -85,7 +100,7 @@ class KineticRun:
         shape = (self._core.bead_count, self._core.dimension)
         if positions.shape != shape:
             raise InputError(f"frame {self._pushed}: has the shape {positions.shape}; expected {shape}")
-        self._core.push(positions, time)
+        self._core.push(positions, time, _cell(f"frame {self._pushed}: cell", cell))
         if self._pushed == 0 and shape[1] == 3 and (doubt := _kds.nanometres_doubt(positions)):
             warn([f"frame 0: {doubt}"])
         if None not in (time, self._time) and time <= self._time:

@@ -1,86 +1,20 @@
 #include "structures/closest/kinetic_closest_pair.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
+#include "structures/closest/candidate_pairs.h"
+#include "structures/images/laid_images.h"
 
 namespace kds {
 
 namespace {
-
-constexpr std::size_t most_pairs = 100'000'000;
-constexpr double more = 1 + 0x1p-40;  // factor above all roundings of a difference and a sum of three
-
-/// The range of a bead's coordinate during the step.
-struct Extent {
-  double low, high;
-  BeadId bead;
-};
-
-template <int Dimension>
-std::vector<Extent> extents(const Curves<Dimension>& curves, std::span<const char> absent, int axis) {
-  std::vector<Extent> all;
-  for (BeadId b = 0; b < curves.bead_count(); ++b) {
-    if (b < absent.size() && absent[b] != 0) continue;
-    Extent extent{curves.coordinate(b, 0, axis), curves.coordinate(b, 0, axis), b};
-    for (int k = 1; k <= curves.own_degree(); ++k) {
-      extent.low = std::min(extent.low, curves.coordinate(b, k, axis));
-      extent.high = std::max(extent.high, curves.coordinate(b, k, axis));
-    }
-    all.push_back(extent);
-  }
-  std::sort(all.begin(), all.end(), [](const Extent& a, const Extent& b) {
-    return a.low != b.low ? a.low < b.low : a.bead < b.bead;
-  });
-  return all;
-}
-
-/// Returns the extents along the axis on which they reach farthest, where the fewest beads are level.
-template <int Dimension>
-std::vector<Extent> widest_extents(const Curves<Dimension>& curves, std::span<const char> absent) {
-  std::vector<Extent> widest = extents(curves, absent, 0);
-  if (widest.empty()) return widest;
-  const auto width = [](const std::vector<Extent>& e) { return e.back().low - e.front().low; };
-  for (int axis = 1; axis < Dimension; ++axis) {
-    std::vector<Extent> other = extents(curves, absent, axis);
-    if (width(other) > width(widest)) widest = std::move(other);
-  }
-  return widest;
-}
-
-/// Bounds of the distance of two beads throughout the step, up to rounding. The lower bound is the least
-/// distance along the axis for which it is largest; the upper bound is the largest sum of the distances along
-/// all axes. Squares are avoided because they might underflow.
-struct Distance {
-  double least = 0, most = 0;
-};
-template <int Dimension>
-Distance distance(const Curves<Dimension>& curves, BeadId a, BeadId b) {
-  std::array<double, Dimension> low, high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
-  Distance distance;
-  for (int k = 0; k <= curves.own_degree(); ++k) {
-    double way = 0;
-    for (int axis = 0; axis < Dimension; ++axis) {
-      const double d = curves.coordinate(b, k, axis) - curves.coordinate(a, k, axis);
-      const auto i = static_cast<std::size_t>(axis);
-      low[i] = std::min(low[i], d);
-      high[i] = std::max(high[i], d);
-      way += std::abs(d);
-    }
-    distance.most = std::max(distance.most, way);
-  }
-  for (std::size_t i = 0; i < Dimension; ++i) distance.least = std::max({distance.least, low[i], -high[i]});
-  return distance;
-}
 
 constexpr std::array<BeadId, 2> no_pair{no_bead, no_bead};
 
@@ -92,55 +26,52 @@ static_assert(pair_kinds.size() == KineticClosestPair<2>::changes + 1);
 }  // namespace
 
 template <int Dimension>
-std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curves,
-                                                   std::span<const char> absent) {
-  const std::vector<Extent> sorted = widest_extents(curves, absent);
-  double limit = std::numeric_limits<double>::infinity();
-  // Visits all pairs whose extents are at most `limit` apart; `limit` may shrink meanwhile.
-  const auto each_near_pair = [&](auto visit) {
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-      for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low - sorted[i].high <= limit; ++j)
-        visit(sorted[i].bead, sorted[j].bead);
-  };
-  each_near_pair([&](BeadId a, BeadId b) { limit = std::min(limit, distance(curves, a, b).most * more); });
-  limit *= more;
-  std::vector<std::array<BeadId, 2>> pairs;
-  each_near_pair([&](BeadId a, BeadId b) {
-    if (distance(curves, a, b).least > limit) return;
-    if (pairs.size() == most_pairs)
-      throw InputError("closest: more than " + std::to_string(most_pairs) +
-                       " pairs of beads may be the closest in one step; expected fewer beads, or shorter "
-                       "steps");
-    pairs.push_back({std::min(a, b), std::max(a, b)});
-  });
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
-
-template std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<2>&, std::span<const char>);
-template std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<3>&, std::span<const char>);
-
-template <int Dimension>
 KineticClosestPair<Dimension>::KineticClosestPair(Simulator& simulator, const MotionRef<Dimension>& motion)
     : EditableBase(simulator, motion.bead_count(), "closest", pair_kinds),
       motion_(motion),
-      table_(simulator, *this, index(), 0, motion),
-      tournament_(table_, Ahead{&candidates_}) {}
+      shifted_(motion.degree()),
+      table_(simulator, *this, index(), 0, MotionRef<Dimension>(shifted_)),
+      tournament_(table_, Ahead{this}) {}
+
+template <int Dimension>
+std::vector<ImagePair> KineticClosestPair<Dimension>::find_candidates(std::span<const char> absent) {
+  const Curves<Dimension> curves = motion_.curves();
+  std::vector<ImagePair> candidates;
+  if (curves.cell() != nullptr) {
+    candidates = candidate_images(curves, shifts_, absent);
+  } else {
+    for (const Pair& pair : candidate_pairs(curves, absent)) candidates.push_back({{pair[0], pair[1]}});
+  }
+  shifted_.set(curves, shifts_);
+  return candidates;
+}
+
+template <int Dimension>
+Closer::Pair KineticClosestPair<Dimension>::compared(const ImagePair& image) const {
+  Closer::Pair pair{{image.pair.first, image.pair.second}};
+  if (image.shift != 0) pair.shift = {shifted_.to(image.shift), shifted_.from(image.shift)};
+  return pair;
+}
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::build() {
   present().structure_is_built();
   pair_.reset();
-  for (const Pair& pair : candidate_pairs(motion_.curves(), present().absent())) {
-    if (!pair_ || table_.search().sign_just_after(simulator().kernel(), {pair, *pair_}, Instant(0),
-                                                  statistics.stages) > 0)
-      pair_ = pair;
+  Closer::Pair closest;
+  for (const ImagePair& image : find_candidates(present().absent())) {
+    const Closer::Pair pair = compared(image);
+    if (pair_ && table_.search().sign_just_after(simulator().kernel(), {pair, closest}, Instant(0),
+                                                 statistics.stages) <= 0)
+      continue;
+    pair_ = pair.beads;
+    closest = pair;
   }
 }
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::start_step() {
-  candidates_ = candidate_pairs(motion_.curves(), present().absent());
+  shifts_ = {};
+  candidates_ = find_candidates(present().absent());
   tournament_.start(static_cast<std::uint32_t>(candidates_.size()));
   needs_after_batch = true;
   count_certificates();
@@ -150,8 +81,8 @@ template <int Dimension>
 void KineticClosestPair<Dimension>::count_certificates() {
   CertificatesPerBead per_bead(statistics.certificates, bead_count());
   tournament_.each_contest([&](std::uint32_t a, std::uint32_t b) {
-    for (const Pair& pair : {candidates_[a], candidates_[b]})
-      for (const BeadId bead : pair) per_bead.add(bead);
+    for (const ImagePair& image : {candidates_[a], candidates_[b]})
+      for (const BeadId bead : {image.pair.first, image.pair.second}) per_bead.add(bead);
   });
 }
 
@@ -164,8 +95,8 @@ void KineticClosestPair<Dimension>::fail(unsigned, std::uint32_t slot) {
   if (tournament_.winner() != closest) {
     needs_after_batch = true;
   } else {
-    const Pair &behind = candidates_[contest.winner], &ahead = candidates_[contest.loser];
-    record(overtake, {behind[0], behind[1], ahead[0], ahead[1]});
+    const BeadPair &behind = candidates_[contest.winner].pair, &ahead = candidates_[contest.loser].pair;
+    if (behind != ahead) record(overtake, {behind.first, behind.second, ahead.first, ahead.second});
   }
 }
 
@@ -173,7 +104,7 @@ template <int Dimension>
 void KineticClosestPair<Dimension>::after_batch() {
   const std::optional<Pair> before = pair_;
   pair_.reset();
-  if (!candidates_.empty()) pair_ = candidates_[tournament_.winner()];
+  if (!candidates_.empty()) pair_ = compared(candidates_[tournament_.winner()]).beads;
   if (pair_ == before) return;
   const auto [i, j] = before.value_or(no_pair);
   const auto [k, l] = pair_.value_or(no_pair);
@@ -204,7 +135,7 @@ template <int Dimension>
 void KineticClosestPair<Dimension>::edit(std::uint8_t kind, BeadId bead) {
   PresentBeads present = this->present();
   present.set_absent(bead, kind == erases);
-  std::vector<Pair> candidates = candidate_pairs(motion_.curves(), present.absent());
+  std::vector<ImagePair> candidates = find_candidates(present.absent());
   this->present() = std::move(present);
   record(kind, {bead});
   if (candidates == candidates_) return;
@@ -219,11 +150,11 @@ void KineticClosestPair<Dimension>::release(std::span<const BeadId>) {
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::follow(std::span<const BeadId>) {
-  start_among(candidate_pairs(motion_.curves(), present().absent()));
+  start_among(find_candidates(present().absent()));
 }
 
 template <int Dimension>
-void KineticClosestPair<Dimension>::start_among(std::vector<Pair> candidates) {
+void KineticClosestPair<Dimension>::start_among(std::vector<ImagePair> candidates) {
   candidates_ = std::move(candidates);
   tournament_.start(static_cast<std::uint32_t>(candidates_.size()));
   after_batch();
@@ -235,6 +166,7 @@ std::optional<std::string> KineticClosestPair<Dimension>::audit(const Dyadic& ti
   if (!pair_) return std::nullopt;
   for (const BeadId bead : *pair_)
     if (is_absent(bead)) return "bead " + std::to_string(bead) + " of the closest pair is absent";
+  if (motion_.curves().cell() != nullptr) return fault_of_images(time);
   std::vector<decltype(exact_position(motion_.curves(), 0, time))> at;
   for (BeadId b = 0; b < bead_count(); ++b) at.push_back(exact_position(motion_.curves(), b, time));
   const auto square = [&](BeadId a, BeadId b, std::size_t axes) {
@@ -255,6 +187,34 @@ std::optional<std::string> KineticClosestPair<Dimension>::audit(const Dyadic& ti
     }
   }
   return std::nullopt;
+}
+
+// All images that are about as near as the nearest of the known pair are compared with it exactly.
+template <int Dimension>
+std::optional<std::string> KineticClosestPair<Dimension>::fault_of_images(const Dyadic& time) {
+  const Curves<Dimension> curves = motion_.curves();
+  const LaidImages<Dimension> beads(curves, time.round_down(), std::vector<double>(bead_count(), 0));
+  const double reach = beads.distance((*pair_)[0], (*pair_)[1]);
+  const LaidImages<Dimension> laid(curves, time.round_down(),
+                                   std::vector<double>(bead_count(), 0.5 * reach + 4 * beads.spare()));
+  std::vector<ImagePair> near;
+  laid.visit_near([&](BeadId a, BeadId b, const CellShift<Dimension>& shift, double gap) {
+    if (gap > 0 || is_absent(a) || is_absent(b)) return;
+    near.push_back({{a, b}, shifts_.number_of(shift)});
+  });
+  shifted_.set(curves, shifts_);
+  const auto is_closer = [&](const ImagePair& one, const ImagePair& other) {
+    return one != other && table_.search().sign_at({compared(one), compared(other)}, time) > 0;
+  };
+  std::optional<ImagePair> known, closest;
+  for (const ImagePair& image : near) {
+    if (!closest || is_closer(image, *closest)) closest = image;
+    if (image.pair != BeadPair{(*pair_)[0], (*pair_)[1]}) continue;
+    if (!known || is_closer(image, *known)) known = image;
+  }
+  if (known && !is_closer(*closest, *known)) return std::nullopt;
+  return fmt::format("images of beads {} and {} are closer than those of beads {} and {}",
+                     closest->pair.first, closest->pair.second, (*pair_)[0], (*pair_)[1]);
 }
 
 template class KineticClosestPair<2>;

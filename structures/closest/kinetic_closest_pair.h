@@ -3,6 +3,10 @@
 // pairs that may be the closest at some time of the step. If pairs are equally close for the rest of the
 // step, the first by ids wins. Radii are ignored; for pairs of balls that meet, see the structure `contacts`.
 //
+// In a periodic cell (HasCell), the distance of two beads is that of their nearest images, and the candidates
+// are images. An image that overtakes another of the same pair causes no event where the pair stays the
+// closest.
+//
 // Inserting, erasing or redirecting a bead costs as much as the start of a step. If a bead in no candidate
 // pair is inserted or erased, it costs only a search for candidates. Edits throw InputError if more than 10^8
 // pairs might be the closest afterwards. In this case, insert and erase change nothing; after a change of
@@ -19,18 +23,11 @@
 #include "kds/structure_base.h"
 #include "motions/curves/curves.h"
 #include "motions/curves/motion_ref.h"
+#include "structures/images/near_images.h"
+#include "structures/images/shifted_beads.h"
 #include "structures/tournament/tournament.h"
 
 namespace kds {
-
-/// Returns the pairs of beads that may be the closest at some time of a step, in ascending order, each pair
-/// ascending too. Every other pair is always farther apart than the largest distance of some candidate pair.
-/// Proved from control points in doubles, including rounding. The candidates are few if beads move little
-/// compared with their distances; they are all pairs if all beads meet. Uses only beads that are not marked
-/// in `absent`. Throws InputError if there are more than 10^8 pairs, which are too many to store.
-template <int Dimension>
-[[nodiscard]] std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curves,
-                                                                 std::span<const char> absent = {});
 
 template <int Dimension>
 class KineticClosestPair final : public EditableBase {
@@ -59,21 +56,27 @@ class KineticClosestPair final : public EditableBase {
  private:
   /// Makes certificates between candidates, which are named by their indices in the list.
   struct Ahead {
-    const std::vector<Pair>* candidates;
+    const KineticClosestPair* of;
     Closer operator()(std::uint32_t ahead, std::uint32_t behind) const {
-      return {(*candidates)[ahead], (*candidates)[behind]};
+      return {of->compared(of->candidates_[ahead]), of->compared(of->candidates_[behind])};
     }
   };
 
   void release(std::span<const BeadId> beads) override;
   void follow(std::span<const BeadId> beads) override;
   void edit(std::uint8_t kind, BeadId bead) override;
+  /// Finds the candidates of the step among the beads that are not marked.
+  [[nodiscard]] std::vector<ImagePair> find_candidates(std::span<const char> absent);
   /// Starts the tournament anew among other candidates, at the present time.
-  void start_among(std::vector<Pair> candidates);
+  void start_among(std::vector<ImagePair> candidates);
+  [[nodiscard]] Closer::Pair compared(const ImagePair& image) const;
+  [[nodiscard]] std::optional<std::string> fault_of_images(const Dyadic& time);
 
   MotionRef<Dimension> motion_;
+  ShiftNumbers<Dimension> shifts_;
+  ShiftedBeads<Dimension> shifted_;  // the motion of the certificates
   CertificateTable<Closer> table_;
-  std::vector<Pair> candidates_;
+  std::vector<ImagePair> candidates_;
   Tournament<Ahead> tournament_;
   std::optional<Pair> pair_;
 };

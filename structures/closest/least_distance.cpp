@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace kds {
@@ -53,28 +54,43 @@ struct CurvePart {
   }
 };
 
+/// The difference of two centres and a bound of the numbers that it is made of.
 template <int Dimension>
-CurvePart<Dimension> difference(const Curves<Dimension>& curves, BeadId a, BeadId b) {
+struct Difference {
   CurvePart<Dimension> whole;
+  double extent = 0;
+};
+
+template <int Dimension>
+Difference<Dimension> difference(const Curves<Dimension>& curves, BeadId a, BeadId b,
+                                 const CellShift<Dimension>& shift) {
+  Difference<Dimension> difference;
   for (int k = 0; k <= curves.own_degree(); ++k) {
-    Vector<Dimension>& point = whole.points.emplace_back();
-    for (int axis = 0; axis < Dimension; ++axis)
-      point[static_cast<std::size_t>(axis)] = curves.coordinate(b, k, axis) - curves.coordinate(a, k, axis);
+    Vector<Dimension>& point = difference.whole.points.emplace_back();
+    double way = 0;
+    for (int axis = 0; axis < Dimension; ++axis) {
+      double d = curves.coordinate(b, k, axis) - curves.coordinate(a, k, axis);
+      for (int vector = 0; vector < Dimension && !is_zero(shift); ++vector) {
+        const double moved =
+            shift[static_cast<std::size_t>(vector)] * curves.cell_coordinate(vector, k, axis);
+        way += std::abs(d) + std::abs(moved);
+        d += moved;
+      }
+      point[static_cast<std::size_t>(axis)] = d;
+      way += std::abs(d);
+    }
+    difference.extent = std::max(difference.extent, way);
   }
-  return whole;
+  return difference;
 }
 
 }  // namespace
 
 template <int Dimension>
-LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b) {
-  std::vector<CurvePart<Dimension>> parts{difference(curves, a, b)};
-  double extent = 0;
-  for (const Vector<Dimension>& point : parts.front().points) {
-    double way = 0;
-    for (const double along : point) way += std::abs(along);
-    extent = std::max(extent, way);
-  }
+LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b,
+                             const CellShift<Dimension>& shift) {
+  auto [whole, extent] = difference(curves, a, b, shift);
+  std::vector<CurvePart<Dimension>> parts{std::move(whole)};
   const double margin = 0x1p-40 * extent + 0x1p-1060;
   if (!(extent + 8 * margin < HUGE_VAL)) return {0, HUGE_VAL, 0};
   LeastDistance least{HUGE_VAL, HUGE_VAL, 0};
@@ -104,7 +120,7 @@ LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b
   return least;
 }
 
-template LeastDistance least_distance(const Curves<2>&, BeadId, BeadId);
-template LeastDistance least_distance(const Curves<3>&, BeadId, BeadId);
+template LeastDistance least_distance(const Curves<2>&, BeadId, BeadId, const CellShift<2>&);
+template LeastDistance least_distance(const Curves<3>&, BeadId, BeadId, const CellShift<3>&);
 
 }  // namespace kds

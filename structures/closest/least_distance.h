@@ -9,6 +9,7 @@
 // rounding of the whole computation. The margin for this rounding is 2^-40 of the largest control point.
 
 #include "motions/curves/curves.h"
+#include "structures/images/shifted_beads.h"
 
 namespace kds {
 
@@ -19,7 +20,9 @@ struct LeastDistance {
 
 /// If doubles overflow, the result is the trivial enclosure from 0 to infinity. Two beads that turn around
 /// each other at a nearly constant distance need many parts: milliseconds at degree 15, seconds at degree 61.
+/// In a periodic cell, the second bead may be moved by a shift.
 template <int Dimension>
-[[nodiscard]] LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b);
+[[nodiscard]] LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b,
+                                           const CellShift<Dimension>& shift = {});
 
 }  // namespace kds

@@ -13,7 +13,7 @@
 #include "motions/base/interruption.h"
 #include "motions/curves/positions.h"
 #include "motions/scene/near_pairs.h"
-#include "structures/contacts/laid_images.h"
+#include "structures/images/laid_images.h"
 #include "structures/necklace/pairs_in_question.h"
 
 namespace kds {

@@ -42,8 +42,8 @@
 #include "motions/curves/other_radii.h"
 #include "structures/contacts/contact_distance.h"
 #include "structures/contacts/moving_family.h"
-#include "structures/contacts/near_images.h"
-#include "structures/contacts/shifted_beads.h"
+#include "structures/images/near_images.h"
+#include "structures/images/shifted_beads.h"
 #include "structures/necklace/bead_pairs.h"
 
 namespace kds {

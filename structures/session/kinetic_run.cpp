@@ -251,14 +251,16 @@ void KineticRun::check_bends() const {
   }
 }
 
-void KineticRun::take(std::span<const double> coordinates, std::optional<double> picoseconds) {
+void KineticRun::take(std::span<const double> coordinates, std::optional<double> picoseconds,
+                      const std::optional<Cell>& cell) {
   if (!own_scene_ || motion_) throw std::logic_error("a frame is pushed to a run that has a motion already");
   run();
-  own_scene_->push(coordinates, picoseconds);
+  own_scene_->push(coordinates, picoseconds, cell);
 }
 
-void KineticRun::push(std::span<const double> coordinates, std::optional<double> picoseconds) {
-  take(coordinates, picoseconds);
+void KineticRun::push(std::span<const double> coordinates, std::optional<double> picoseconds,
+                      const std::optional<Cell>& cell) {
+  take(coordinates, picoseconds, cell);
   run();
 }
 

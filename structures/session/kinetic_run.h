@@ -130,10 +130,12 @@ class KineticRun {
 
   /// Adds the next frame, and runs all steps whose motion is then known. Throws InputError, and changes
   /// nothing, if the coordinates are not a frame of these beads.
-  void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
+  void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt,
+            const std::optional<Cell>& cell = std::nullopt);
   /// Adds the next frame like `push`, but leaves the step that becomes known to the calls below. A step left
   /// from before is run first.
-  void take(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
+  void take(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt,
+            const std::optional<Cell>& cell = std::nullopt);
   /// Builds all structures at the first frame. The first step does this if `build` was not called. Throws
   /// std::logic_error if the first step is not known.
   void build();

@@ -269,7 +269,6 @@ void add_point_structures(StructureRegistry& registry) {
                   if (scene.dimension() < 2) return needs_plane_or_space(scene);
                   return std::nullopt;
                 },
-                .lacks_images = true,
                 .make = make_of_points<KineticClosestPair, 2>(
                     [](const auto& closest) {
                       const auto& pair = closest.pair();

@@ -94,6 +94,11 @@ class Errors(unittest.TestCase):
         self.refused(r"^beads: is -1", pushed, -1, 1)
         self.refused(r"^cutoff: '-3' is not a number from 0", pushed, 30, 1, cutoff=-3, structures=["contacts"])
         self.refused(r"^dt: is for inputs that have their frames", pushed, 30, 1, dt=2)
+        self.refused(r"^cell: expected three lengths", pushed, 30, 1, cell=(9, 9), structures=["contacts"])
+        self.refused(r"^frame 0: cell: expected three lengths",
+                     lambda: pushed(30, 1, structures=["contacts"]).push(coil()[0], cell=(9, 9, 9)))
+        self.refused(r"^frame 0: expected a cell that is periodic along the same vectors",
+                     lambda: pushed(30, 1, structures=["contacts"]).push(coil()[0], cell=(9, 9, 9, 90, 90, 90)))
         self.refused(r"^frame 0: time: is 'x'", pushed(30, 1, structures=["power"]).push, coil()[0], "x")
         self.refused(r"^frame 0: has the dtype complex128", pushed(30, 1, structures=["power"]).push, coil()[0] * 1j)
         run = kds.KineticRun(coil(), radius=1, structures=["contacts", "power"])

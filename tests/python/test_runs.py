@@ -454,6 +454,15 @@ class Driving(unittest.TestCase):
     def open(self, **options):
         return kds.KineticRun(self.positions, radius=1, structures=["contacts", "power"], **options)
 
+    def test_pushed_in_a_cell(self):
+        run = kds.KineticRun.pushed(2, 1, structures=["contacts"], cell=(10, 10, 10, 90, 90, 90), apart=1)
+        run.push([[1, 5, 5], [5, 5, 5]])
+        events = run.push([[1, 5, 5], [9, 5, 5]])      # at x = 9 the image at -1 touches the first bead
+        self.assertEqual(events.size, 0)
+        events = run.push([[1, 5, 5], [1, 5, 5]])      # wrapped: from 9 on to 11
+        self.assertEqual(events["kind"].tolist(), ["begin"])
+        run.finish()
+
     def test_steps_events_and_times_are_those_of_a_run(self):
         expected = kds.run(self.positions, radius=1, structures=["contacts", "power"])
         by_steps = self.open()

@@ -265,7 +265,7 @@ TEST(Collide, MethodsThatDisagreeAreAnInternalFailure) {
   input.radius = "1";
   const auto ignore = [](const std::string&) {};
   CollideFrames frames(input, ignore);
-  const Method wrong{"wrong", "", false, make_wrong<2>, make_wrong<3>};
+  const Method wrong{"wrong", "", false, false, make_wrong<2>, make_wrong<3>};
   CollideTask task{{&collision_methods().front(), &wrong}, {{frames.necklaces(), true, 2, true}}};
   try {
     static_cast<void>(compare_detectors(

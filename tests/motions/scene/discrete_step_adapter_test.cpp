@@ -157,6 +157,41 @@ TEST(DiscreteStepAdapter, KnowsAPushedHermiteStepOneFrameLater) {
   }
 }
 
+// Beads that are wrapped into a skewed cell, whose tilt jumps by a whole vector, move on as if they were not.
+TEST(DiscreteStepAdapter, UnwrapsPushedFrames) {
+  Cell cell = Eigen::Vector3d(8, 8, 8).asDiagonal();
+  cell(0, 1) = 3.5;
+  Cell flipped = cell;
+  flipped(0, 1) -= 8;
+  Eigen::Matrix3Xd wrapped(3, 2), next(3, 2);
+  wrapped << 7, 1, 1, 1, 1, 7;
+  next << 0, 1, 0, 1, 0, 7.5;
+  Scene scene(PushedFrames{3, {2}, {1}, FrameMotion::linear, cell});
+  EXPECT_TRUE(scene.is_periodic());
+  scene.push(numbers_of(wrapped));
+  next.col(0) = Eigen::Vector3d(9, 1, 1) - cell.col(1);
+  scene.push(numbers_of(next), std::nullopt, flipped);
+  BezierMotion<3, 1> step(2);
+  scene.load(0, step);
+  EXPECT_EQ(scene.centers(1).col(0), Eigen::Vector3d(9, 1, 1));
+  EXPECT_EQ(scene.centers(1).col(1), next.col(1));
+  ASSERT_NE(step.cell(), nullptr);
+  for (int vector = 0; vector < 3; ++vector)
+    for (int k = 0; k <= 1; ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_EQ(step.cell()[(vector * 2 + k) * 3 + axis], cell(axis, vector));
+  Cell slab = cell;
+  slab.col(2).setZero();
+  test::expect_refused([&] { scene.push(numbers_of(next), std::nullopt, slab); },
+                       {"frame 2: expected a cell that is periodic along the same vectors as the run's"});
+  EXPECT_EQ(scene.frame_count(), 2U);
+  test::expect_refused(
+      [&] {
+        (void)Scene(PushedFrames{2, {2}, {1}, FrameMotion::linear, cell});
+      },
+      {"a periodic cell in 2 dimensions: expected vectors in the plane"});
+}
+
 TEST(DiscreteStepAdapter, LaysFramesOfEverySourceInTheirPlane) {
   std::vector<Eigen::Matrix3Xd> frames = random_frames(3);
   for (Eigen::Matrix3Xd& frame : frames) frame.row(1).setConstant(2.5);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "structures/closest/candidate_pairs.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/moving_points.h"

@@ -11,7 +11,7 @@
 #include "motions/frames/periodic.h"
 #include "structures/contacts/contacts.h"
 #include "tests/support/inputs/moving_beads.h"
-#include "tests/support/inputs/random.h"
+#include "tests/support/inputs/random_cells.h"
 #include "tests/support/judges/image_events.h"
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
@@ -27,8 +27,6 @@ template <Motion M>
 using ContactRig = Rig<Contacts<M::dimension>, M>;
 
 PairsAsked all_pairs(std::size_t beads) { return {{{0, static_cast<BeadId>(beads - 1)}}, true, 1, true}; }
-
-Cell box(double x, double y, double z) { return Eigen::Vector3d(x, y, z).asDiagonal(); }
 
 template <Motion M>
 void expect_right(const std::vector<M>& steps, int most_shift = 6) {
@@ -108,64 +106,14 @@ TEST(PeriodicContacts, SmallCell) {
   EXPECT_THAT(told_of({{0, 0, 0}, {4, 4, 4}}, box(1.5, 1.5, 1.5)), IsEmpty());
 }
 
-/// The kinds of cells of random scenes.
-enum class CellKind { box, small, skewed, changing, one_vector, two_vectors };
-
-Cell random_cell(Random& random, CellKind kind, int dimension) {
-  const auto whole = [&](int from, int to) { return static_cast<double>(pick(random, from, to)); };
-  Cell cell = box(whole(6, 9), whole(6, 9), whole(6, 9));
-  if (kind == CellKind::small) cell = box(whole(2, 4), whole(2, 4), whole(2, 4));
-  if (kind == CellKind::skewed || kind == CellKind::changing) {
-    cell(0, 1) = 0.5 * whole(-6, 6);
-    cell(0, 2) = 0.5 * whole(-6, 6);
-    cell(1, 2) = 0.5 * whole(-6, 6);
-  }
-  if (kind == CellKind::one_vector) cell.rightCols(2).setZero();
-  if (kind == CellKind::two_vectors) cell.col(1).setZero();
-  if (dimension == 2) {
-    cell.col(2).setZero();
-    cell.row(2).setZero();
-  }
-  return cell;
-}
-
-template <class M>
-std::vector<M> random_steps(Random& random, CellKind kind, std::size_t beads, bool on_grid) {
-  std::vector<M> steps;
-  Cell start = random_cell(random, kind, M::dimension);
-  for (int s = 0; s < 2; ++s) {
-    M& step = steps.emplace_back(beads);
-    Cell end = start;
-    if (kind == CellKind::changing)
-      for (int i = 0; i < M::dimension; ++i)
-        for (int j = 0; j < M::dimension; ++j) end(i, j) += 0.125 * pick(random, -3, 3);
-    for (BeadId b = 0; b < beads; ++b) {
-      for (int k = 0; k <= M::degree; ++k) {
-        step.set_radius(b, k, b % 3 == 0 ? 1 : 0.5);
-        for (int axis = 0; axis < M::dimension; ++axis) {
-          double x = on_grid ? 0.5 * pick(random, -8, 16) : 6 * uniform(random);
-          if (k > 0 && !on_grid) x = step.coordinate(b, 0, axis) + 2 * uniform(random);
-          if (s > 0 && k == 0) x = steps[0].coordinate(b, M::degree, axis);
-          step.set_coordinate(b, k, axis, x);
-        }
-      }
-    }
-    step.own_cell().set(start, end, M::degree);
-    start = end;
-  }
-  return steps;
-}
-
 template <class M>
 void expect_random_scenes_right(int count) {
   Random random(52);
   for (int round = 0; round < rounds(count, 1); ++round) {
-    for (const CellKind kind : {CellKind::box, CellKind::small, CellKind::skewed, CellKind::changing,
-                                CellKind::one_vector, CellKind::two_vectors}) {
-      if (M::dimension == 2 && kind == CellKind::two_vectors) continue;
+    for (const CellKind kind : cell_kinds(M::dimension)) {
       for (const bool on_grid : {false, true}) {
         SCOPED_TRACE(text_of("round ", round, ", cell ", static_cast<int>(kind), on_grid ? ", grid" : ""));
-        expect_right(random_steps<M>(random, kind, 4, on_grid), kind == CellKind::small ? 12 : 6);
+        expect_right(random_steps_in_cell<M>(random, kind, 4, on_grid), kind == CellKind::small ? 12 : 6);
         if (testing::Test::HasFailure()) return;
       }
     }
@@ -341,7 +289,7 @@ TEST(PeriodicContacts, ManyBeadsInAGridOfManyBins) {
 // Contacts between two groups are those of all pairs that join them, also with radii of their own.
 TEST(PeriodicContacts, OfTwoGroups) {
   Random random(6);
-  const std::vector<Space> steps = random_steps<Space>(random, CellKind::skewed, 24, false);
+  const std::vector<Space> steps = random_steps_in_cell<Space>(random, CellKind::skewed, 24, false);
   const std::vector<double> radii(24, 1.5);
   const auto events_of = [&](const PairsAsked& asked, const PairsAsked& counted) {
     ContactRig<Space> rig(steps.front(), AuditMode::events, Kernel::filtered, asked, radii);

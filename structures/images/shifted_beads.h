@@ -89,7 +89,7 @@ class ShiftedBeads {
   static constexpr int degree = any_degree;
   explicit ShiftedBeads(int own_degree) : row_(static_cast<std::size_t>(own_degree) + 1) {}
 
-  /// Copies the beads of the step, which must have a cell, and computes the shifts.
+  /// Copies the beads of the step and computes the shifts. Without a cell there are none but 0.
   void set(const Curves<Dimension>& curves, const ShiftNumbers<Dimension>& shifts) {
     beads_ = curves.bead_count();
     points_.resize((beads_ + 2 * shifts.size()) * row_ * stride);
@@ -120,15 +120,18 @@ class ShiftedBeads {
 
   void set_shifts(const Curves<Dimension>& curves, const ShiftNumbers<Dimension>& shifts, std::size_t k) {
     double largest = 0;
+    const auto cell_coordinate = [&](int vector, int axis) {
+      return curves.cell() == nullptr ? 0 : curves.cell_coordinate(vector, static_cast<int>(k), axis);
+    };
     for (int vector = 0; vector < Dimension; ++vector)
       for (int axis = 0; axis < Dimension; ++axis)
-        largest = std::max(largest, std::abs(curves.cell_coordinate(vector, static_cast<int>(k), axis)));
+        largest = std::max(largest, std::abs(cell_coordinate(vector, axis)));
     const int unit = largest > 0 ? std::ilogb(largest) + 1 - 80 : 0;  // a power of two
     Integer cell[Dimension][Dimension];                               // in units, below 2^80
     for (int vector = 0; vector < Dimension; ++vector)
       for (int axis = 0; axis < Dimension; ++axis)
-        cell[vector][axis] = static_cast<Integer>(
-            std::nearbyint(std::ldexp(curves.cell_coordinate(vector, static_cast<int>(k), axis), -unit)));
+        cell[vector][axis] =
+            static_cast<Integer>(std::nearbyint(std::ldexp(cell_coordinate(vector, axis), -unit)));
     for (std::uint32_t number = 0; number < shifts.size(); ++number) {
       const CellShift<Dimension>& shift = shifts.shift(number);
       double* const high = &points_[(to(number) * row_ + k) * stride];

@@ -1,4 +1,4 @@
-#include "structures/contacts/near_images.h"
+#include "structures/images/near_images.h"
 
 #include <fmt/format.h>
 #include <Eigen/LU>

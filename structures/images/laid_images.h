@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "motions/curves/curves.h"
@@ -14,7 +15,7 @@
 #include "motions/frames/periodic.h"
 #include "motions/numbers/bernstein.h"
 #include "motions/scene/near_pairs.h"
-#include "structures/contacts/shifted_beads.h"
+#include "structures/images/shifted_beads.h"
 
 namespace kds {
 
@@ -22,12 +23,14 @@ namespace kds {
 template <int D>
 class LaidImages {
  public:
-  LaidImages(const Curves<D>& curves, double u)
-      : beads_(static_cast<BeadId>(curves.bead_count())), radii_(approximate_radii(curves, u)) {
-    const Eigen::Matrix3Xd centers = approximate_positions(curves, u);
-    const Images images(cell_at(curves, u));
-    const Eigen::Matrix3d cell = images.reduced();  // multiples below are of these vectors
-    steps_ = images.steps();
+  /// Lays the images of a motion's balls at a time.
+  LaidImages(const Curves<D>& curves, double u) : LaidImages(curves, u, approximate_radii(curves, u)) {}
+  /// Lays those of balls with other radii, one for each bead.
+  LaidImages(const Curves<D>& curves, double u, std::vector<double> radii)
+      : LaidImages(approximate_positions(curves, u), std::move(radii), cell_at(curves, u)) {}
+  LaidImages(const Eigen::Matrix3Xd& centers, std::vector<double> radii, const Cell& cell_of_beads)
+      : images_(cell_of_beads), beads_(static_cast<BeadId>(radii.size())), radii_(std::move(radii)) {
+    const Eigen::Matrix3d cell = images_.reduced();  // multiples below are of these vectors
     // The rows of vectors that span nothing are zero.
     const Eigen::Matrix3d inverse = cell.completeOrthogonalDecomposition().pseudoInverse();
     double reach = 0;
@@ -88,17 +91,22 @@ class LaidImages {
       CellShift<D> of_cell{};
       for (std::size_t v = 0; v < shift.size(); ++v)
         for (std::size_t a = 0; a < shift.size(); ++a)
-          of_cell[v] += shift[a] * static_cast<std::int32_t>(
-                                       steps_(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(a)));
+          of_cell[v] += shift[a] * static_cast<std::int32_t>(images_.steps()(static_cast<Eigen::Index>(v),
+                                                                             static_cast<Eigen::Index>(a)));
       const double gap = (points_[i] - points_[j]).stableNorm() - radii_[of_[i]] - radii_[of_[j]];
       visit(std::min(of_[i], of_[j]), std::max(of_[i], of_[j]), of_cell, gap);
     });
   }
   [[nodiscard]] bool is_clear(double gap) const { return std::abs(gap) > 4 * spare(); }
+  /// Exceeds by far what the rounding of times, sums and squares can add to a distance.
+  [[nodiscard]] double spare() const { return 0x1p-40 * largest_; }
+  /// Returns the distance of the nearest images of two beads, rounded.
+  [[nodiscard]] double distance(BeadId a, BeadId b) const {
+    const Eigen::Vector3d difference = points_[b] - points_[a];
+    return images_.shifted(difference, images_.nearest(difference)).norm();
+  }
 
  private:
-  // Exceeds by far what the rounding of times, sums and squares can add to a distance.
-  [[nodiscard]] double spare() const { return 0x1p-40 * largest_; }
   void add(BeadId bead, const Eigen::Vector3d& point, const CellShift<D>& shift) {
     points_.push_back(point);
     of_.push_back(bead);
@@ -117,9 +125,10 @@ class LaidImages {
     }
     return cell;
   }
+
+  Images images_;
   BeadId beads_;
   std::vector<double> radii_;
-  Eigen::Matrix3d steps_;  // the reduced vectors in multiples of the cell's
   std::vector<CellShift<D>> homes_;
   double largest_ = 0;
   std::vector<Eigen::Vector3d> points_;  // the beads, then their images

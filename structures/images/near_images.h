@@ -32,7 +32,7 @@
 
 #include "motions/curves/curves.h"
 #include "motions/frames/periodic.h"
-#include "structures/contacts/shifted_beads.h"
+#include "structures/images/shifted_beads.h"
 #include "structures/necklace/bead_pairs.h"
 
 namespace kds {
