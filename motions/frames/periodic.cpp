@@ -349,8 +349,8 @@ void UnwrappedBeads::follow(WholeChain::Frame frame, const Cell& cell) {
   }
 }
 
-bool are_strewn(const Eigen::Ref<const Eigen::Matrix3Xd>& beads, const Cell& cell) {
-  if (beads.cols() < 8) return false;  // too few to tell
+SequenceInCell sequence_in_cell(const Eigen::Ref<const Eigen::Matrix3Xd>& beads, const Cell& cell) {
+  if (beads.cols() < 8) return SequenceInCell::chain;
   const Images images(cell);
   std::vector<double> lengths;
   for (Eigen::Index i = 1; i < beads.cols(); ++i) {
@@ -359,7 +359,16 @@ bool are_strewn(const Eigen::Ref<const Eigen::Matrix3Xd>& beads, const Cell& cel
   }
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
-  return 3 * *middle > images.reduced().col(0).norm();
+  const double third = images.reduced().col(0).norm() / 3;
+  if (*middle > third) return SequenceInCell::fluid;
+  return *std::max_element(middle, lengths.end()) > third ? SequenceInCell::several_chains
+                                                          : SequenceInCell::chain;
+}
+
+Eigen::Matrix3Xd joined(Eigen::Matrix3Xd beads, const Images& images) {
+  for (Eigen::Index i = 1; i < beads.cols(); ++i)
+    beads.col(i) = images.shifted(beads.col(i), images.nearest(beads.col(i) - beads.col(i - 1)));
+  return beads;
 }
 
 }  // namespace kds

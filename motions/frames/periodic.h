@@ -155,8 +155,17 @@ class UnwrappedBeads {
   Eigen::Matrix3Xd shifts_;  // of each bead, in cell vectors
 };
 
-/// Returns whether consecutive beads lie as far from each other as beads of a fluid do: the median of their
-/// distances across the walls is more than a third of the lattice's shortest vector.
-[[nodiscard]] bool are_strewn(const Eigen::Ref<const Eigen::Matrix3Xd>& beads, const Cell& cell);
+/// How the beads of a file that names no molecules follow one another, by the distances of consecutive beads
+/// across the walls of the cell.
+enum class SequenceInCell {
+  chain,           ///< no distance is more than a third of the lattice's shortest vector, or too few to tell
+  several_chains,  ///< some are, so that the nearest image does not tell how the beads hang together there
+  fluid,           ///< their median is
+};
+[[nodiscard]] SequenceInCell sequence_in_cell(const Eigen::Ref<const Eigen::Matrix3Xd>& beads,
+                                              const Cell& cell);
+
+/// Returns the beads, each moved to the image nearest to the bead before it.
+[[nodiscard]] Eigen::Matrix3Xd joined(Eigen::Matrix3Xd beads, const Images& images);
 
 }  // namespace kds

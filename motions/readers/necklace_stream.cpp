@@ -160,8 +160,8 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
     if (!options.groups.empty() && heads_[n].bead_groups.empty())
       heads_[n].bead_groups.assign(static_cast<std::size_t>(bead_counts_[n]),
                                    groups_without_names(opened_.file, options.groups));
+  if (!options.unwrap) look_for_molecules(first);
   find_pieces();
-  is_strewn_ = !options.unwrap && is_no_chain(first);
   unwrap_ = options.unwrap.value_or(is_strewn_ ? Unwrap::beads : Unwrap::chains);
   if (is_strewn_) opened_.chain_like = false;
   if (unwrap_ == Unwrap::chains) place(first);
@@ -177,11 +177,24 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
   rewind();
 }
 
-bool NecklaceStream::is_no_chain(const FrameRead& first) const {
-  if (!first.cell || !opened_.bonds.pieces.empty()) return false;
-  return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
-    return are_strewn(first.positions.middleCols(piece.first, piece.bead_count), *first.cell);
-  });
+void NecklaceStream::look_for_molecules(const FrameRead& first) {
+  if (!first.cell || !opened_.bonds.pieces.empty()) return;
+  std::vector<PieceRead> pieces;
+  bool are_several = false;
+  Eigen::Index begin = 0;
+  for (const Eigen::Index count : bead_counts_) {
+    const Eigen::Matrix3Xd beads = first.positions.middleCols(begin, count);
+    const SequenceInCell sequence = sequence_in_cell(beads, *first.cell);
+    is_strewn_ = is_strewn_ || sequence == SequenceInCell::fluid;
+    pieces.push_back({static_cast<std::size_t>(begin), true});
+    if (sequence == SequenceInCell::several_chains) {
+      are_several = true;
+      for (const std::size_t end : find_chain_breaks(joined(beads, Images(*first.cell)), {}))
+        pieces.push_back({static_cast<std::size_t>(begin) + end + 1, false});
+    }
+    begin += count;
+  }
+  if (are_several && !is_strewn_) opened_.bonds.pieces = std::move(pieces);
 }
 
 void NecklaceStream::place(FrameRead& first) {

@@ -78,8 +78,9 @@ class NecklaceStream {
   };
   /// Reads the next frame; `next` adds what --until-damage asks for.
   [[nodiscard]] bool read(FrameRead& frame);
-  /// Returns whether the file names no molecules, and beads lie where those of a fluid do.
-  [[nodiscard]] bool is_no_chain(const FrameRead& first) const;
+  /// For a file that names no molecules, finds out whether its beads are a fluid, and divides several chains
+  /// at their breaks.
+  void look_for_molecules(const FrameRead& first);
   /// Places the pieces of the first frame next to each other.
   void place(FrameRead& first);
   /// Divides the necklaces into pieces. Notes the gaps between bonded beads.

@@ -48,7 +48,8 @@ struct ReadOptions {
   std::optional<double> time_step = {};    ///< picoseconds between frames; none: times as in the file
   bool until_damage = false;               ///< reads the frames before a damaged one
   std::optional<LammpsUnits> units = {};   ///< for LAMMPS dumps; none: as the file says, else angstrom
-  /// None: chains; but beads for a file that names no molecules and whose beads are strewn (are_strewn).
+  /// None: chains; but beads for a file that names no molecules and whose beads are a fluid
+  /// (SequenceInCell).
   std::optional<Unwrap> unwrap = {};
   std::vector<Selection> groups = {};  ///< groups of the selected beads, at most eight (BeadGroups)
 };

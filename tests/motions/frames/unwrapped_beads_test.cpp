@@ -86,18 +86,21 @@ TEST(UnwrappedBeads, TiltsDoNotJump) {
   EXPECT_EQ(continued(before, before), before);
 }
 
-TEST(UnwrappedBeads, FluidsAreStrewnAndChainsAreNot) {
+TEST(SequenceInCell, ChainsAndFluids) {
   Random random(2);
   const Cell cell = random_cell(random);
-  Eigen::Matrix3Xd fluid(3, 200), chain(3, 200);
+  Eigen::Matrix3Xd fluid(3, 200), chain(3, 200), molecules(3, 200);
   for (double& x : fluid.reshaped()) x = 20 * (1 + uniform(random));
   for (Eigen::Index b = 0; b < chain.cols(); ++b) {
     fluid.col(b) = wrapped(fluid.col(b), cell);
     chain.col(b) = Eigen::Vector3d(3.8 * static_cast<double>(b), uniform(random), 0);
     chain.col(b) = wrapped(chain.col(b), cell);
   }
-  EXPECT_TRUE(are_strewn(fluid, cell));
-  EXPECT_FALSE(are_strewn(chain, cell));
+  for (Eigen::Index b = 0; b < chain.cols(); ++b)
+    molecules.col(b) = fluid.col(b / 4 * 4) + static_cast<double>(b % 4) * Eigen::Vector3d::UnitZ();
+  EXPECT_EQ(sequence_in_cell(fluid, cell), SequenceInCell::fluid);
+  EXPECT_EQ(sequence_in_cell(chain, cell), SequenceInCell::chain);
+  EXPECT_EQ(sequence_in_cell(molecules, cell), SequenceInCell::several_chains);
 }
 
 }  // namespace

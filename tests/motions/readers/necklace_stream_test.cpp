@@ -11,6 +11,7 @@
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
 #include "tests/support/inputs/netcdf_maker.h"
+#include "tests/support/inputs/random.h"
 
 namespace kds::necklace_stream_test {
 namespace {
@@ -199,6 +200,36 @@ TEST(NecklaceStream, TellsOfNoImageThatIsNearerByRoundingOnly) {
 }
 
 // Frames without a time must not shift the times of later frames.
+// Waters in a file without names, wrapped atom by atom: no bead moves farther than it has.
+TEST(NecklaceStream, DividesUnnamedMolecules) {
+  test::Random random(3);
+  constexpr int waters = 30;
+  Eigen::Matrix3Xd at(3, 3 * waters);
+  for (int w = 0; w < waters; ++w) {
+    for (int axis = 0; axis < 3; ++axis) at(axis, 3 * w) = box * 0.5 * (1 + test::uniform(random));
+    at.col(3 * w + 1) = at.col(3 * w) + Eigen::Vector3d(1, 0, 0);
+    at.col(3 * w + 2) = at.col(3 * w) + Eigen::Vector3d(0.3, 0.9, 0);
+  }
+  std::string text;
+  for (int frame = 0; frame < 40; ++frame) {
+    text += "90\nLattice=\"20 0 0 0 20 0 0 0 20\" Properties=species:S:1:pos:R:3\n";
+    for (int w = 0; w < waters; ++w) {
+      Eigen::Vector3d move;
+      for (double& x : move) x = test::uniform(random);
+      at.middleCols(3 * w, 3).colwise() += move;
+    }
+    for (Eigen::Index b = 0; b < at.cols(); ++b) {
+      text += "X";
+      for (const double x : at.col(b)) text += " " + std::to_string(x - box * std::floor(x / box));
+      text += "\n";
+    }
+  }
+  const Trajectory read = read_trajectory(test::write_file("waters.xyz", text));
+  EXPECT_THAT(read.warnings, testing::Contains(HasSubstr("molecules are not bonded to the beads before")));
+  for (std::size_t k = 1; k < read.frames.size(); ++k)
+    EXPECT_LT((read.frames[k] - read.frames[k - 1]).colwise().norm().maxCoeff(), 1.8) << "frame " << k;
+}
+
 TEST(NecklaceStream, TimesAreThoseOfTheirFrames) {
   test::NetcdfMaker maker = test::NetcdfMaker::chain(4, 3);
   maker.times[1] = std::numeric_limits<double>::quiet_NaN();
