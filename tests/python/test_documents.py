@@ -18,6 +18,8 @@ import unittest
 import warnings
 from pathlib import Path
 
+import numpy as np
+
 import kds
 from data import DCD, PDB, PROGRAM
 
@@ -137,21 +139,38 @@ class Manual(unittest.TestCase):
             import mdtraj  # noqa: F401
         except Exception as error:
             self.skipTest(f"the examples need MDAnalysis and mdtraj ({error})")
-        blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / "python.md").read_text(), re.S)
-        self.assertGreater(len(blocks), 8)
+        self.run_blocks("python.md", 8, (PDB, "md.pdb"), (DCD, "md.dcd"))
+
+    def test_those_of_residence_run(self):
+        try:
+            import matplotlib
+        except Exception as error:
+            self.skipTest(f"the examples need matplotlib ({error})")
+        matplotlib.use("svg")
+        water = ROOT / "data" / "trajectories" / "enkephalin_water"
+        names = self.run_blocks("residence.md", 3, *((f"{water}{end}", f"{water.name}{end}") for end in (".xtc", ".gro")))
+        times, number = names["coordination"](names["once"].intervals)
+        self.assertEqual(number[-1], 0)
+        self.assertAlmostEqual(np.sum(number[:-1] * np.diff(times)), names["once"].all["total"], places=6)
+
+    def run_blocks(self, document, least, *copies):
+        """Runs the blocks of Python in a document, in a folder with copies of files. Returns the names they define."""
+        blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / document).read_text(), re.S)
+        self.assertGreaterEqual(len(blocks), least)
         before = os.getcwd()
+        names = {}
         with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            shutil.copy(PDB, os.path.join(folder, "md.pdb"))
-            shutil.copy(DCD, os.path.join(folder, "md.dcd"))
+            for source, name in copies:
+                shutil.copy(source, os.path.join(folder, name))
             os.chdir(folder)
-            names = {}
             try:
                 for number, block in enumerate(blocks):
                     with self.subTest(block=number), contextlib.redirect_stdout(io.StringIO()):
-                        exec(compile(block, f"docs/python.md, block {number}", "exec"), names)  # noqa: S102
+                        exec(compile(block, f"docs/{document}, block {number}", "exec"), names)  # noqa: S102
             finally:
                 os.chdir(before)
+        return names
 
 
 if __name__ == "__main__":

@@ -157,6 +157,35 @@ TEST(DiscreteStepAdapter, KnowsAPushedHermiteStepOneFrameLater) {
   }
 }
 
+// A planar scene has the vectors of the cell that lie in its plane, in the plane's coordinates.
+TEST(DiscreteStepAdapter, LaysCellsInTheirPlane) {
+  const Cell upright = Eigen::Vector3d(10, 20, 30).asDiagonal();
+  for (const int across : {0, 1, 2}) {
+    Trajectory trajectory;
+    for (int frame = 0; frame < 2; ++frame) {
+      Eigen::Matrix3Xd& positions = trajectory.frames.emplace_back(Eigen::Matrix3Xd::Random(3, 4));
+      positions.row(across).setConstant(2.5);
+      trajectory.cells.push_back(upright);
+    }
+    const Scene scene(std::span(&trajectory, 1), std::vector<double>(4, 1));
+    ASSERT_EQ(scene.dimension(), 2);
+    ASSERT_TRUE(scene.is_periodic());
+    BezierMotion<2, 1> step(4);
+    scene.load(0, step);
+    ASSERT_NE(step.cell(), nullptr);
+    const std::array<int, 2> axes{across == 0 ? 1 : 0, across == 2 ? 1 : 2};
+    // The plane may name its axes in either order, so that the beads say which is which.
+    const bool turned = step.coordinate(0, 0, 0) != trajectory.frames[0](axes[0], 0);
+    for (int axis = 0; axis < 2; ++axis) {
+      const int in_input = axes[static_cast<std::size_t>(turned ? 1 - axis : axis)];
+      EXPECT_EQ(step.coordinate(0, 0, axis), trajectory.frames[0](in_input, 0));
+      double along = 0;
+      for (int vector = 0; vector < 2; ++vector) along += std::abs(step.cell()[(vector * 2) * 2 + axis]);
+      EXPECT_EQ(along, upright(in_input, in_input));
+    }
+  }
+}
+
 // Beads that are wrapped into a skewed cell, whose tilt jumps by a whole vector, move on as if they were not.
 TEST(DiscreteStepAdapter, UnwrapsPushedFrames) {
   Cell cell = Eigen::Vector3d(8, 8, 8).asDiagonal();

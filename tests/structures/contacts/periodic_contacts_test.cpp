@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "motions/base/input_error.h"
 #include "motions/frames/periodic.h"
+#include "motions/readers/read_trajectory.h"
+#include "motions/scene/scene.h"
 #include "structures/contacts/contacts.h"
+#include "structures/images/image_pairs.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_cells.h"
 #include "tests/support/judges/image_events.h"
@@ -284,6 +288,30 @@ TEST(PeriodicContacts, ManyBeadsInAGridOfManyBins) {
   expect_kernels_agree(upright, 1.25 * upright, beads, 4, 4);
   expect_kernels_agree(upright, skewed, beads, 4, 20);
   expect_kernels_agree(upright, 1.75 * upright, beads, 4, 4);  // too much for a grid
+}
+
+// The peptide and its water cross walls all the time.
+TEST(PeriodicContacts, OfASolvatedPeptideAreThoseOfFrames) {
+  ReadOptions reading;
+  reading.frames = {0, 12};
+  const Trajectory read =
+      read_trajectory(std::string(KDS_DATA_DIR) + "/trajectories/enkephalin_water.xtc", reading);
+  const std::size_t beads = read.bead_count();
+  const std::vector<double> radii(beads, 1.75013);  // no distance is the cutoff
+  const Scene scene(std::span(&read, 1), radii);
+  ASSERT_TRUE(scene.is_periodic());
+  std::vector<Space> steps(scene.step_count(), Space(beads));
+  for (std::size_t k = 0; k < steps.size(); ++k) scene.load(k, steps[k]);
+  const PairsAsked asked = all_pairs(beads);
+  ContactRig<Space> rig(steps.front(), AuditMode::frames, asked);
+  rig.motion = steps.front();
+  rig.simulator.build();
+  for (std::size_t k = 0; k <= steps.size(); ++k) {
+    const Balls<3> balls(scene.centers(k), radii);
+    EXPECT_EQ(rig.structure.pairs(), image_pairs_by_force(balls, read.cells[k], asked, 0.0)) << "frame " << k;
+    EXPECT_GT(rig.structure.pairs().size(), 1000U);
+    if (k < steps.size()) rig.step(steps[k]);
+  }
 }
 
 // Contacts between two groups are those of all pairs that join them, also with radii of their own.
