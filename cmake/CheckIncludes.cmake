@@ -10,7 +10,7 @@ endmacro()
 room(motions base numbers curves views frames readers scene models)
 room(certificates base exact types filters formulas search)
 list(APPEND order kds)
-room(structures sorted tournament box hull closest necklace enclosing_sphere moving_sphere hierarchy chord_cages triangulation power_diagram blocks collision contacts)
+room(structures sorted tournament box hull necklace enclosing_sphere moving_sphere hierarchy chord_cages triangulation power_diagram blocks collision images impacts closest contacts)
 # A folder that no other structure includes needs no place in the list.
 file(GLOB others RELATIVE "${ROOT}" LIST_DIRECTORIES ON "${ROOT}/structures/*")
 list(FILTER others EXCLUDE REGEX "[.]txt$|/session$")

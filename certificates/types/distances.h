@@ -42,7 +42,7 @@ struct Closer {
 
   [[nodiscard]] Identity identity() const {
     Identity identity = identity_of(type, std::array<BeadId, 4>{beads[0], beads[1], beads[4], beads[5]});
-    // Behind the end of the beads that messages name.
+    // Messages name the beads before the first `no_bead`; the shifts follow it, to tell images apart.
     if (beads[2] != beads[3]) identity.beads[5] = beads[2];
     if (beads[6] != beads[7]) identity.beads[6] = beads[6];
     return identity;
@@ -103,7 +103,7 @@ struct ImageContact {
 
   [[nodiscard]] Identity identity() const {
     Identity identity = identity_of(type, std::array<BeadId, 2>{beads[0], beads[1]});
-    identity.beads[4] = beads[2];  // behind the end of the beads that messages name
+    identity.beads[4] = beads[2];  // behind the first `no_bead`, where messages do not name it
     return identity;
   }
 

@@ -137,7 +137,7 @@ void PairsCsv::add(const FrameRead& frame, std::span<const BeadPair> pairs) {
   if (scene_.has_times() && frame.stamp.picoseconds) time += fmt::to_string(*frame.stamp.picoseconds);
   for (const auto& [i, j] : pairs) {
     Eigen::Vector3d difference = center(i) - center(j);
-    if (images) difference = images->shifted(difference, images->nearest(difference));
+    if (images) difference = images->shortest(difference);
     const double distance = difference.stableNorm() - (radii[i] + radii[j]);
     stream_ << fmt::format("{},{},{},{},{},{}{}\n", frame.stamp.number, i, j, distance,
                            quoted(scene_.bead_name(i)), quoted(scene_.bead_name(j)), time);

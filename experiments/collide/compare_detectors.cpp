@@ -26,9 +26,8 @@ CollideFrames::CollideFrames(const InputOptions& options, const std::function<vo
   const FrameSurvey survey = survey_frames(*frames_, options.radius == "auto", warn);
   radii_ = bead_radii(options.radius, frames_->necklaces(), survey);
   plane_ = survey.plane;
-  periodic_ = survey.periodic;
-  if (options.periodic && !survey.lacks_images.empty())
-    warn(fmt::format("pairs across the walls of the cell are not found, because {}", survey.lacks_images));
+  periodic_ = survey.periodic && options.periodic;
+  warn_of_cells("pairs", survey.lacks_images, options, warn);
   truncated_ = survey.truncated;
   frame_count_ = survey.frame_count;
   first_ = survey.first;
@@ -103,32 +102,40 @@ template <int Dimension>
 class Cells final : public Detector<Dimension> {
  public:
   explicit Cells(const CollisionQuery& query) : query_(query), cells_(query.asked) {}
-  void set_cell(const std::optional<Cell>& cell) override { cell_ = cell; }
+  void set_cell(const std::optional<Cell>& cell) override { periodic_cell_ = cell; }
   void detect(const Balls<Dimension>& balls, Detection& found) override {
-    found.pairs = cell_ ? image_pairs_by_cells(balls, *cell_, query_.asked, query_.distance)
-                        : cells_.pairs_within(balls, query_.distance);
+    found.pairs = periodic_cell_ ? image_pairs_by_cells(balls, *periodic_cell_, query_.asked, query_.distance)
+                                 : cells_.pairs_within(balls, query_.distance);
   }
 
  private:
   CollisionQuery query_;
   CellList<Dimension> cells_;
-  std::optional<Cell> cell_;
+  std::optional<Cell> periodic_cell_;
 };
 
 template <int Dimension>
 class Auto final : public Detector<Dimension> {
  public:
-  explicit Auto(const CollisionQuery& query) : distance_(query.distance), detector_(query.asked) {}
+  explicit Auto(const CollisionQuery& query) : query_(query), detector_(query.asked) {}
+  void set_cell(const std::optional<Cell>& cell) override { cell_ = cell; }
   void detect(const Balls<Dimension>& balls, Detection& found) override {
-    found.pairs = distance_ > 0 ? detector_.pairs_within(balls, distance_) : detector_.pairs(balls);
+    const double distance = query_.distance;
+    if (cell_) {
+      found.pairs = image_pairs_by_cells(balls, *cell_, query_.asked, distance);
+    } else {
+      found.pairs = distance > 0 ? detector_.pairs_within(balls, distance) : detector_.pairs(balls);
+    }
   }
   void find_closest(const Balls<Dimension>& balls, Detection& found) override {
-    found.closest = detector_.closest_pair(balls);
+    found.closest =
+        cell_ ? closest_images_by_cells(balls, *cell_, query_.asked) : detector_.closest_pair(balls);
   }
 
  private:
-  double distance_;
+  CollisionQuery query_;
   AutoDetector<Dimension> detector_;
+  std::optional<Cell> cell_;
 };
 
 template <int Dimension, template <int> class Made>
@@ -146,7 +153,7 @@ constexpr std::array kMethods{
     method<Wrapped>("wrapped", "hierarchy of minimum enclosing spheres"),
     method<Layered>("layered", "hierarchy of spheres around spheres"),
     method<Cells>("cells", "cell list", true, true),
-    method<Auto>("auto", "blocks, and near pairs kept from frame to frame"),
+    method<Auto>("auto", "blocks, and near pairs kept from frame to frame", false, true),
 };
 
 }  // namespace
@@ -166,12 +173,14 @@ std::optional<std::string> difference(const Detection& a, const Detection& b) {
   return std::nullopt;
 }
 
-// Returns the methods that take all of this, as in "brute or cells".
-std::string names_of_methods(bool groups, bool images, std::string_view between) {
+// Returns the methods that take all of this, as in "brute, cells and auto".
+std::string names_of_methods(bool groups, bool images, std::string_view before_last) {
   std::vector<std::string_view> names;
   for (const Method& method : kMethods)
     if ((method.takes_groups || !groups) && (method.takes_images || !images)) names.push_back(method.name);
-  return fmt::format("{}", fmt::join(names, between));
+  const std::string_view last = names.back();
+  names.pop_back();
+  return fmt::format("{} {} {}", fmt::join(names, ", "), before_last, last);
 }
 
 template <int Dimension>
@@ -226,7 +235,7 @@ class Comparison {
           continue;
         }
         refusal =
-            fmt::format("it looks at {}; expected {}{}", looks_at, names_of_methods(groups, images, " or "),
+            fmt::format("it looks at {}; expected {}{}", looks_at, names_of_methods(groups, images, "or"),
                         lacks_groups ? "" : fmt::format(", or {}", "--no-periodic"_arg));
       }
       if (refusal) {
@@ -246,7 +255,7 @@ class Comparison {
     }
     if (!left_out.empty())
       warn(fmt::format("the methods {} look at {}, and are left out; {} are compared",
-                       fmt::join(left_out, ", "), looks_at, names_of_methods(groups, images, " and ")));
+                       fmt::join(left_out, ", "), looks_at, names_of_methods(groups, images, "and")));
   }
 
   std::vector<Detection> detect(const Balls<Dimension>& balls, const FrameRead& frame) {

@@ -60,14 +60,13 @@ class CollideFrames {
   CollideFrames(const InputOptions& options, const std::function<void(const std::string&)>& warn);
 
   /// Reads the next frame. Returns false after the last frame. For a planar scene, positions and cell are in
-  /// the plane's coordinates and the third coordinate is zero. The frame has a cell only if all frames have.
+  /// the plane's coordinates and the third coordinate is zero. The frame has a cell if images of beads are
+  /// looked at.
   [[nodiscard]] bool next(FrameRead& frame);
 
   /// Returns 2 if all beads stay in one plane x, y or z = constant in all frames, else 3.
   [[nodiscard]] int dimension() const { return plane_ ? 2 : 3; }
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
-  /// Returns whether two beads are as near as their nearest images in a periodic cell.
-  [[nodiscard]] bool is_periodic() const { return periodic_; }
   [[nodiscard]] bool is_truncated() const { return truncated_; }
   /// Returns whether the first frame has a time.
   [[nodiscard]] bool has_times() const { return first_.picoseconds.has_value(); }

@@ -132,7 +132,7 @@ MissedReport count_missed(const MissedTask& task, const std::function<void(const
                           const std::function<void(std::size_t, std::size_t)>& progress) {
   MissedReport report;
   const Scene all = load_necklaces(task, task.motion, 1, warn);
-  warn_of_cells(all, task, warn);
+  warn_of_cells("contacts", all.lacks_images(), task, warn);
   report.input = size_of(all);
   const auto [least, most] = std::ranges::minmax(all.radii());
   report.radius_min = least;

@@ -171,7 +171,7 @@ ContactsFound find_contacts(const ContactsTask& task,
   refuse_instance(task, "points and one step");
   ContactsFound found;
   found.scene = std::make_unique<const Scene>(load_necklaces(options_of_input(task), task.motion, 1, warn));
-  warn_of_cells(*found.scene, options_of_input(task), warn);
+  warn_of_cells("contacts", found.scene->lacks_images(), options_of_input(task), warn);
   hint_at_threads(task.threads, found.scene->step_count(), found.scene->bead_count(), warn);
   found.report = follow_contacts(task, *found.scene, progress);
   found.figures = figures_of(*found.report);

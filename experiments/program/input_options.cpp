@@ -205,7 +205,7 @@ OptionList<InputOptions> make_input_options() {
          o.reading.unwrap = choice_of("--unwrap", text, unwrap_names, Unwrap::none);
        },
        [](const InputOptions& o) { return std::string(o.reading.unwrap ? name_of(*o.reading.unwrap) : ""); }},
-      {{"--no-periodic", "", "ignore periodic images when contacts are found"},
+      {{"--no-periodic", "", "ignore periodic images of beads"},
        [](InputOptions& o, const std::string&) { o.periodic = false; },
        [](const InputOptions& o) { return o.periodic ? "" : "yes"; },
        nullptr,

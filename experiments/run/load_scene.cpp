@@ -261,11 +261,10 @@ void warn_of_images(std::string_view what, const std::function<void(const std::s
   warn(fmt::format("{} ignores the images of beads across the walls of the periodic cell", what));
 }
 
-void warn_of_cells(const Scene& scene, const InputOptions& input,
+void warn_of_cells(std::string_view what, const std::string& lacks_images, const InputOptions& input,
                    const std::function<void(const std::string&)>& warn) {
-  if (input.periodic && !scene.lacks_images().empty())
-    warn(
-        fmt::format("contacts across the walls of the cell are not found, because {}", scene.lacks_images()));
+  if (input.periodic && !lacks_images.empty())
+    warn(fmt::format("{} across the walls of the cell are not found, because {}", what, lacks_images));
 }
 
 Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn,
@@ -285,7 +284,8 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
        options.structures.empty() ? default_structures(scene) : options.structures) {
     const StructureSpec* const spec = structure_registry().find(name);
     if (spec != nullptr && spec->lacks_images && scene.is_periodic()) warn_of_images(name, warn);
-    if (name == "contacts") warn_of_cells(scene, input, warn);
+    if (name == "contacts") warn_of_cells("contacts", scene.lacks_images(), input, warn);
+    if (name == "closest") warn_of_cells("closest pairs", scene.lacks_images(), input, warn);
   }
   return scene;
 }

@@ -43,8 +43,9 @@ void refuse_instance(const InputOptions& options, std::string_view what = "no fr
                                    bool* lone_frame = nullptr);
 /// Says to `warn` that `what` leaves out the images of beads across the walls of a periodic cell.
 void warn_of_images(std::string_view what, const std::function<void(const std::string&)>& warn);
-/// Says to `warn` why contacts of images are not found although frames have cells, if that is so.
-void warn_of_cells(const Scene& scene, const InputOptions& input,
+/// Says to `warn` why `what` of images are not found although frames have cells, if that is so.
+/// `lacks_images`: FrameSurvey::lacks_images.
+void warn_of_cells(std::string_view what, const std::string& lacks_images, const InputOptions& input,
                    const std::function<void(const std::string&)>& warn);
 /// Loads the scene of a `kds run`, whose input may also be an instance file. `lone_frame` is as in
 /// load_necklaces.

@@ -164,7 +164,7 @@ bool MemoryFrames::next(FrameRead& frame) {
 
 namespace {
 
-/// Returns whether the same vectors of both cells span something.
+/// Returns whether both cells are periodic along the same vectors.
 bool have_same_vectors(const Cell& a, const Cell& b) {
   for (Eigen::Index vector = 0; vector < 3; ++vector)
     if (a.col(vector).isZero(0) != b.col(vector).isZero(0)) return false;

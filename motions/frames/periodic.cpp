@@ -354,8 +354,7 @@ SequenceInCell sequence_in_cell(const Eigen::Ref<const Eigen::Matrix3Xd>& beads,
   const Images images(cell);
   std::vector<double> lengths;
   for (Eigen::Index i = 1; i < beads.cols(); ++i) {
-    const Eigen::Vector3d bond = beads.col(i) - beads.col(i - 1);
-    lengths.push_back(images.shifted(bond, images.nearest(bond)).norm());
+    lengths.push_back(images.shortest(beads.col(i) - beads.col(i - 1)).norm());
   }
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
@@ -365,10 +364,14 @@ SequenceInCell sequence_in_cell(const Eigen::Ref<const Eigen::Matrix3Xd>& beads,
                                                           : SequenceInCell::chain;
 }
 
-Eigen::Matrix3Xd joined(Eigen::Matrix3Xd beads, const Images& images) {
-  for (Eigen::Index i = 1; i < beads.cols(); ++i)
-    beads.col(i) = images.shifted(beads.col(i), images.nearest(beads.col(i) - beads.col(i - 1)));
-  return beads;
+bool join_across_walls(Eigen::Matrix3Xd& beads, const Images& images) {
+  bool moved = false;
+  for (Eigen::Index i = 1; i < beads.cols(); ++i) {
+    const Eigen::Vector3d shift = images.nearest(beads.col(i) - beads.col(i - 1));
+    moved = moved || !shift.isZero(0);
+    beads.col(i) = images.shifted(beads.col(i), shift);
+  }
+  return moved;
 }
 
 }  // namespace kds

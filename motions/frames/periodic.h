@@ -45,6 +45,10 @@ class Images {
   /// Returns the shift, in whole cell vectors, that makes `difference` shortest; zero if it is shortest
   /// already.
   [[nodiscard]] Eigen::Vector3d nearest(const Eigen::Vector3d& difference) const;
+  /// Returns the shortest of the images of a difference, rounded.
+  [[nodiscard]] Eigen::Vector3d shortest(const Eigen::Vector3d& difference) const {
+    return shifted(difference, nearest(difference));
+  }
   /// Returns the point moved by a shift. If the shift is zero, the point keeps its bits.
   [[nodiscard]] Eigen::Vector3d shifted(const Eigen::Vector3d& point, const Eigen::Vector3d& shift) const;
   /// The Minkowski-reduced basis; columns beyond its rank are zero.
@@ -159,13 +163,13 @@ class UnwrappedBeads {
 /// across the walls of the cell.
 enum class SequenceInCell {
   chain,           ///< no distance is more than a third of the lattice's shortest vector, or too few to tell
-  several_chains,  ///< some are, so that the nearest image does not tell how the beads hang together there
-  fluid,           ///< their median is
+  several_chains,  ///< some distances are longer, so the nearest image does not tell which beads are bonded
+  fluid,           ///< the median distance is longer
 };
 [[nodiscard]] SequenceInCell sequence_in_cell(const Eigen::Ref<const Eigen::Matrix3Xd>& beads,
                                               const Cell& cell);
 
-/// Returns the beads, each moved to the image nearest to the bead before it.
-[[nodiscard]] Eigen::Matrix3Xd joined(Eigen::Matrix3Xd beads, const Images& images);
+/// Moves each bead to the image nearest to the bead before it. Returns whether any has moved.
+bool join_across_walls(Eigen::Matrix3Xd& beads, const Images& images);
 
 }  // namespace kds

@@ -162,8 +162,8 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
                                    groups_without_names(opened_.file, options.groups));
   if (!options.unwrap) look_for_molecules(first);
   find_pieces();
-  unwrap_ = options.unwrap.value_or(is_strewn_ ? Unwrap::beads : Unwrap::chains);
-  if (is_strewn_) opened_.chain_like = false;
+  unwrap_ = options.unwrap.value_or(is_fluid_ ? Unwrap::beads : Unwrap::chains);
+  if (is_fluid_) opened_.chain_like = false;
   if (unwrap_ == Unwrap::chains) place(first);
   drop_guides(first.positions);
   Eigen::Index begin = 0;
@@ -183,18 +183,19 @@ void NecklaceStream::look_for_molecules(const FrameRead& first) {
   bool are_several = false;
   Eigen::Index begin = 0;
   for (const Eigen::Index count : bead_counts_) {
-    const Eigen::Matrix3Xd beads = first.positions.middleCols(begin, count);
+    Eigen::Matrix3Xd beads = first.positions.middleCols(begin, count);
     const SequenceInCell sequence = sequence_in_cell(beads, *first.cell);
-    is_strewn_ = is_strewn_ || sequence == SequenceInCell::fluid;
+    is_fluid_ = is_fluid_ || sequence == SequenceInCell::fluid;
     pieces.push_back({static_cast<std::size_t>(begin), true});
     if (sequence == SequenceInCell::several_chains) {
       are_several = true;
-      for (const std::size_t end : find_chain_breaks(joined(beads, Images(*first.cell)), {}))
+      (void)join_across_walls(beads, Images(*first.cell));
+      for (const std::size_t end : find_chain_breaks(beads, {}))
         pieces.push_back({static_cast<std::size_t>(begin) + end + 1, false});
     }
     begin += count;
   }
-  if (are_several && !is_strewn_) opened_.bonds.pieces = std::move(pieces);
+  if (are_several && !is_fluid_) opened_.bonds.pieces = std::move(pieces);
 }
 
 void NecklaceStream::place(FrameRead& first) {
@@ -278,12 +279,7 @@ WholeChain::Outcome NecklaceStream::make_whole(Piece& piece, Eigen::Matrix3Xd& p
   }
   Eigen::Matrix3Xd along = positions(Eigen::all, piece.route);
   // The bonds of a small molecule are too few to tell whether they become more alike.
-  bool joined = false;
-  for (Eigen::Index i = 1; i < along.cols() && !piece.placed; ++i) {
-    const Eigen::Vector3d step = images->nearest(along.col(i) - along.col(i - 1));
-    joined = joined || !step.isZero(0);
-    along.col(i) = images->shifted(along.col(i), step);
-  }
+  const bool joined = !piece.placed && join_across_walls(along, *images);
   const WholeChain::Outcome outcome = piece.whole.make_whole(along, *images);
   positions(Eigen::all, piece.route) = along;
   return joined ? WholeChain::Outcome::joined : outcome;
@@ -510,7 +506,7 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
   const Notes& notes = notes_[necklace];
   const bool in_pieces = notes.pieces > 1;
   lines.insert(lines.end(), notes.placed.begin(), notes.placed.end());
-  if (is_strewn_ && necklace == 0)
+  if (is_fluid_ && necklace == 0)
     lines.push_back(
         fmt::format("{}: names no molecules, and consecutive beads are as far apart as in a fluid, so each "
                     "bead moves alone to "

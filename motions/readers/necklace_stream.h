@@ -104,7 +104,7 @@ class NecklaceStream {
   FramesOpened opened_;
   Unwrap unwrap_ = Unwrap::chains;
   std::optional<Cell> last_cell_;  ///< of the frame before
-  bool is_strewn_ = false;         ///< `unwrap_` is beads because of the first frame
+  bool is_fluid_ = false;          ///< `unwrap_` is beads because of the first frame
   UnwrappedBeads paths_;           ///< if `unwrap_` is beads
   std::optional<double> time_step_;
   bool until_damage_;

@@ -34,8 +34,8 @@ struct PushedFrames {
   std::vector<std::size_t> necklaces = {};  ///< number of beads in each necklace
   std::vector<double> radii = {};           ///< one per bead, or one for all; empty: points
   FrameMotion motion = FrameMotion::linear;
-  /// The cell of the first frame, in two or three dimensions, if beads are in a periodic cell. Each bead then
-  /// moves to the image nearest to its place in the frame before.
+  /// The cell of the first frame, in two or three dimensions, if beads are in a periodic cell, as read_cell
+  /// accepts it. Each bead then moves to the image nearest to its place in the frame before.
   std::optional<Cell> cell = std::nullopt;
 };
 

@@ -89,7 +89,7 @@ class KineticRun:
     def push(self, positions, time=None, cell=None):
         """Adds the next frame, an array (beads, dimension) in angstrom, and runs all steps that are then known.
 
-        ``time`` is in picoseconds. ``cell`` is the frame's cell if the run has one and it changes. Returns the events of these steps. A wrong frame raises InputError and changes
+        ``time`` is in picoseconds. ``cell`` is the new cell, if it changes; the run must have one. Returns the events of these steps. A wrong frame raises InputError and changes
         nothing.
         """
         if self._source is not None:

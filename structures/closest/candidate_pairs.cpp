@@ -7,10 +7,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
 #include "motions/base/input_error.h"
+#include "motions/curves/motion_ref.h"
 #include "motions/curves/other_radii.h"
 #include "motions/frames/periodic.h"
 
@@ -66,14 +68,6 @@ std::vector<Extent> widest_extents(const Curves<Dimension>& curves, std::span<co
   return widest;
 }
 
-template <int Dimension>
-double shift_coordinate(const Curves<Dimension>& curves, const CellShift<Dimension>& shift, int k, int axis) {
-  double sum = 0;
-  for (int vector = 0; vector < Dimension; ++vector)
-    sum += shift[static_cast<std::size_t>(vector)] * curves.cell_coordinate(vector, k, axis);
-  return sum;
-}
-
 /// Bounds of the distance of two beads throughout the step, up to rounding. The lower bound is the least
 /// distance along the axis for which it is largest; the upper bound is the largest sum of the distances along
 /// all axes. Squares are avoided because they might underflow. The second bead is moved by `shift`.
@@ -108,7 +102,7 @@ template <int Dimension>
 class ImageDistances {
  public:
   explicit ImageDistances(const Curves<Dimension>& curves)
-      : curves_(curves), middle_(0.5 * (cell_at(0) + cell_at(curves.own_degree()))) {
+      : curves_(curves), middle_(0.5 * (cell_of(curves, 0) + cell_of(curves, curves.own_degree()))) {
     for (BeadId b = 0; b < curves.bead_count(); ++b)
       for (int k = 0; k <= curves.own_degree(); ++k)
         for (int axis = 0; axis < Dimension; ++axis)
@@ -117,11 +111,9 @@ class ImageDistances {
 
   [[nodiscard]] Distance between(BeadId a, BeadId b, const CellShift<Dimension>& shift) const {
     double moved = 0;
-    for (int k = 0; k <= curves_.own_degree() && !is_zero(shift); ++k)
-      for (int vector = 0; vector < Dimension; ++vector)
-        for (int axis = 0; axis < Dimension; ++axis)
-          moved = std::max(moved, std::abs(shift[static_cast<std::size_t>(vector)] *
-                                           curves_.cell_coordinate(vector, k, axis)));
+    for (int k = 0; k <= curves_.own_degree(); ++k)
+      for (int axis = 0; axis < Dimension; ++axis)
+        moved = std::max(moved, size_of_shift(curves_, shift, k, axis));
     const double margin = 0x1p-46 * (largest_ + moved);
     Distance range = distance(curves_, a, b, shift);
     return {range.least - margin, range.most + margin};
@@ -142,14 +134,6 @@ class ImageDistances {
   }
 
  private:
-  [[nodiscard]] Cell cell_at(int k) const {
-    Cell cell = Cell::Zero();
-    for (int vector = 0; vector < Dimension; ++vector)
-      for (int axis = 0; axis < Dimension; ++axis)
-        cell(axis, vector) = curves_.cell_coordinate(vector, k, axis);
-    return cell;
-  }
-
   const Curves<Dimension>& curves_;
   Images middle_;
   double largest_ = 0;
@@ -197,7 +181,7 @@ std::vector<ImagePair> candidate_images(const Curves<Dimension>& curves, ShiftNu
       limit = std::min(limit, distances.between(before, bead, distances.near_shift(before, bead)).most);
     before = bead;
   }
-  if (!std::isfinite(limit)) return {};
+  if (!std::isfinite(limit)) return {};  // fewer than two beads, or doubles overflow
   const MotionRef<Dimension> motion(curves);
   const OtherRadii<Dimension> halves(motion, std::vector<double>(curves.bead_count(), 0.5 * more * limit));
   PairsAsked asked{{{0, static_cast<BeadId>(curves.bead_count() - 1)}}, true, 1};
@@ -206,6 +190,7 @@ std::vector<ImagePair> candidate_images(const Curves<Dimension>& curves, ShiftNu
   NearImages<Dimension> near_images(std::move(asked));
   PairsOfImages found;
   near_images.find(Curves<Dimension>(halves), true, shifts, found);
+  require_room_for_another(found.unclear.size() + found.overlapping.size());
   std::vector<ImagePair> images = std::move(found.unclear);
   images.insert(images.end(), found.overlapping.begin(), found.overlapping.end());
   const auto range = [&](const ImagePair& image) {
@@ -213,7 +198,6 @@ std::vector<ImagePair> candidate_images(const Curves<Dimension>& curves, ShiftNu
   };
   for (const ImagePair& image : images) limit = std::min(limit, range(image).most);
   std::erase_if(images, [&](const ImagePair& image) { return range(image).least > limit; });
-  require_room_for_another(images.size());
   std::sort(images.begin(), images.end());
   return images;
 }

@@ -47,7 +47,7 @@ std::vector<ImagePair> KineticClosestPair<Dimension>::find_candidates(std::span<
 }
 
 template <int Dimension>
-Closer::Pair KineticClosestPair<Dimension>::compared(const ImagePair& image) const {
+Closer::Pair KineticClosestPair<Dimension>::shifted_pair(const ImagePair& image) const {
   Closer::Pair pair{{image.pair.first, image.pair.second}};
   if (image.shift != 0) pair.shift = {shifted_.to(image.shift), shifted_.from(image.shift)};
   return pair;
@@ -59,7 +59,7 @@ void KineticClosestPair<Dimension>::build() {
   pair_.reset();
   Closer::Pair closest;
   for (const ImagePair& image : find_candidates(present().absent())) {
-    const Closer::Pair pair = compared(image);
+    const Closer::Pair pair = shifted_pair(image);
     if (pair_ && table_.search().sign_just_after(simulator().kernel(), {pair, closest}, Instant(0),
                                                  statistics.stages) <= 0)
       continue;
@@ -104,7 +104,10 @@ template <int Dimension>
 void KineticClosestPair<Dimension>::after_batch() {
   const std::optional<Pair> before = pair_;
   pair_.reset();
-  if (!candidates_.empty()) pair_ = compared(candidates_[tournament_.winner()]).beads;
+  if (!candidates_.empty()) {
+    const BeadPair& winner = candidates_[tournament_.winner()].pair;
+    pair_ = {winner.first, winner.second};
+  }
   if (pair_ == before) return;
   const auto [i, j] = before.value_or(no_pair);
   const auto [k, l] = pair_.value_or(no_pair);
@@ -204,7 +207,7 @@ std::optional<std::string> KineticClosestPair<Dimension>::fault_of_images(const 
   });
   shifted_.set(curves, shifts_);
   const auto is_closer = [&](const ImagePair& one, const ImagePair& other) {
-    return one != other && table_.search().sign_at({compared(one), compared(other)}, time) > 0;
+    return one != other && table_.search().sign_at({shifted_pair(one), shifted_pair(other)}, time) > 0;
   };
   std::optional<ImagePair> known, closest;
   for (const ImagePair& image : near) {

@@ -58,7 +58,7 @@ class KineticClosestPair final : public EditableBase {
   struct Ahead {
     const KineticClosestPair* of;
     Closer operator()(std::uint32_t ahead, std::uint32_t behind) const {
-      return {of->compared(of->candidates_[ahead]), of->compared(of->candidates_[behind])};
+      return {of->shifted_pair(of->candidates_[ahead]), of->shifted_pair(of->candidates_[behind])};
     }
   };
 
@@ -69,7 +69,7 @@ class KineticClosestPair final : public EditableBase {
   [[nodiscard]] std::vector<ImagePair> find_candidates(std::span<const char> absent);
   /// Starts the tournament anew among other candidates, at the present time.
   void start_among(std::vector<ImagePair> candidates);
-  [[nodiscard]] Closer::Pair compared(const ImagePair& image) const;
+  [[nodiscard]] Closer::Pair shifted_pair(const ImagePair& image) const;
   [[nodiscard]] std::optional<std::string> fault_of_images(const Dyadic& time);
 
   MotionRef<Dimension> motion_;

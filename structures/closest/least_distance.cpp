@@ -70,11 +70,9 @@ Difference<Dimension> difference(const Curves<Dimension>& curves, BeadId a, Bead
     double way = 0;
     for (int axis = 0; axis < Dimension; ++axis) {
       double d = curves.coordinate(b, k, axis) - curves.coordinate(a, k, axis);
-      for (int vector = 0; vector < Dimension && !is_zero(shift); ++vector) {
-        const double moved =
-            shift[static_cast<std::size_t>(vector)] * curves.cell_coordinate(vector, k, axis);
-        way += std::abs(d) + std::abs(moved);
-        d += moved;
+      if (!is_zero(shift)) {
+        way += std::abs(d) + size_of_shift(curves, shift, k, axis);
+        d += shift_coordinate(curves, shift, k, axis);
       }
       point[static_cast<std::size_t>(axis)] = d;
       way += std::abs(d);

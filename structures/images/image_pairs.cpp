@@ -11,6 +11,7 @@
 #include "motions/base/input_error.h"
 #include "motions/base/interruption.h"
 #include "structures/images/laid_images.h"
+#include "structures/necklace/ball_distance.h"
 #include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
@@ -19,16 +20,6 @@ namespace {
 
 Eigen::Vector3d center_of(const BallRow<2>& ball) { return {ball.center[0], ball.center[1], 0}; }
 Eigen::Vector3d center_of(const BallRow<3>& ball) { return {ball.center[0], ball.center[1], ball.center[2]}; }
-
-int sign_of(const Rational& x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
-
-/// Returns the sign of sqrt(a) - sqrt(b) - c.
-int compare_roots(const Rational& a, const Rational& b, const Rational& c) {
-  if (c < 0) return -compare_roots(b, a, Rational(-c));
-  const Rational rest = a - b - c * c;  // compared with 2 c sqrt(b)
-  if (rest < 0) return -1;
-  return sign_of(Rational(rest * rest - 4 * c * c * b));
-}
 
 /// Counts pairs, to ask now and then whether the user has interrupted.
 class Interruptible {
@@ -70,12 +61,11 @@ Eigen::Vector3d NearestImages<D>::difference(BeadId a, BeadId b) const {
 
 template <int D>
 double NearestImages<D>::distance(BeadId a, BeadId b) const {
-  const Eigen::Vector3d d = difference(a, b);
-  return images_.shifted(d, images_.nearest(d)).norm() - (balls_.radius(a) + balls_.radius(b));
+  return images_.shortest(difference(a, b)).norm() - (balls_.radius(a) + balls_.radius(b));
 }
 
-// The nearest image in doubles may be another than the nearest one where two are equally near; the nearest
-// one is then among its neighbours in the reduced basis.
+// The nearest image in doubles may not be the nearest if two are about equally near. The nearest one is then
+// among its neighbours in the reduced basis.
 template <int D>
 auto NearestImages<D>::gap(BeadId a, BeadId b) const -> Gap {
   const Eigen::Vector3d d = difference(a, b), nearest = images_.nearest(d);
@@ -142,24 +132,61 @@ std::vector<BeadPair> image_pairs_by_cells(const Balls<D>& balls, const Cell& ce
   return pairs;
 }
 
+namespace {
+
+/// Keeps the closest of the pairs that are offered, decided exactly. Of equally close pairs, the first
+/// offered.
+template <int D>
+class ClosestImages {
+ public:
+  ClosestImages(const Balls<D>& balls, const Cell& cell) : images_(balls, cell) {}
+  void offer(BeadId a, BeadId b) {
+    const double distance = images_.distance(a, b);
+    if (closest_ && distance > closest_->distance + 2 * images_.error()) return;
+    auto gap = images_.gap(a, b);
+    if (closest_ && compare_gaps(gap.square, least_.square, gap.reach - least_.reach) >= 0) return;
+    closest_ = ClosestPair{a, b, 0, distance};
+    least_ = std::move(gap);
+  }
+  [[nodiscard]] std::optional<ClosestPair> result() const {
+    std::optional<ClosestPair> result = closest_;
+    if (result) result->sign = compare_gaps(least_.square, Rational(0), least_.reach);
+    return result;
+  }
+
+ private:
+  NearestImages<D> images_;
+  std::optional<ClosestPair> closest_;
+  typename NearestImages<D>::Gap least_;
+};
+
+}  // namespace
+
 template <int D>
 std::optional<ClosestPair> closest_images_by_force(const Balls<D>& balls, const Cell& cell,
                                                    const PairsAsked& asked) {
-  const NearestImages<D> images(balls, cell);
-  std::optional<ClosestPair> closest;
-  typename NearestImages<D>::Gap least;
+  ClosestImages<D> closest(balls, cell);
   Interruptible interruptible;
   PairsInQuestion(asked).for_each([&](BeadId a, BeadId b) {
     interruptible.ask();
-    const double distance = images.distance(a, b);
-    if (closest && distance > closest->distance + 2 * images.error()) return;
-    auto gap = images.gap(a, b);
-    if (closest && compare_roots(gap.square, least.square, gap.reach - least.reach) >= 0) return;
-    closest = ClosestPair{a, b, 0, distance};
-    least = std::move(gap);
+    closest.offer(a, b);
   });
-  if (closest) closest->sign = compare_roots(least.square, 0, least.reach);
-  return closest;
+  return closest.result();
+}
+
+// Pairs that overlap are searched first, then those within more and more.
+template <int D>
+std::optional<ClosestPair> closest_images_by_cells(const Balls<D>& balls, const Cell& cell,
+                                                   const PairsAsked& asked) {
+  const double width = Images(cell).reduced().col(0).norm();
+  for (double distance = 0; distance < width; distance = distance == 0 ? width / 64 : 2 * distance) {
+    const std::vector<BeadPair> pairs = image_pairs_by_cells(balls, cell, asked, distance);
+    if (pairs.empty()) continue;
+    ClosestImages<D> closest(balls, cell);
+    for (const BeadPair& pair : pairs) closest.offer(pair.first, pair.second);
+    return closest.result();
+  }
+  return closest_images_by_force(balls, cell, asked);
 }
 
 template class NearestImages<2>;
@@ -170,5 +197,8 @@ template std::vector<BeadPair> image_pairs_by_cells(const Balls<2>&, const Cell&
 template std::vector<BeadPair> image_pairs_by_cells(const Balls<3>&, const Cell&, const PairsAsked&, double);
 template std::optional<ClosestPair> closest_images_by_force(const Balls<2>&, const Cell&, const PairsAsked&);
 template std::optional<ClosestPair> closest_images_by_force(const Balls<3>&, const Cell&, const PairsAsked&);
+
+template std::optional<ClosestPair> closest_images_by_cells(const Balls<2>&, const Cell&, const PairsAsked&);
+template std::optional<ClosestPair> closest_images_by_cells(const Balls<3>&, const Cell&, const PairsAsked&);
 
 }  // namespace kds

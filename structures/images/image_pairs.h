@@ -9,14 +9,13 @@
 #include "motions/frames/periodic.h"
 #include "motions/numbers/exact_number.h"
 #include "structures/collision/closest_pair.h"
-#include "structures/images/shifted_beads.h"
 #include "structures/necklace/balls.h"
 #include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 
 /// Compares the distances of nearest images. The balls must outlive this object. Throws InputError if a
-/// coordinate is more than 100,000 times the length of the lattice's shortest vector.
+/// coordinate, a radius or the cell is more than 100,000 times as long as the lattice's shortest vector.
 template <int Dimension>
 class NearestImages {
  public:
@@ -57,6 +56,10 @@ template <int Dimension>
 /// equally close, returns the first. Tests all pairs.
 template <int Dimension>
 [[nodiscard]] std::optional<ClosestPair> closest_images_by_force(const Balls<Dimension>& balls,
+                                                                 const Cell& cell, const PairsAsked& asked);
+/// Returns the same pair, found by grids. Tests all pairs only if none is nearer than the cell is wide.
+template <int Dimension>
+[[nodiscard]] std::optional<ClosestPair> closest_images_by_cells(const Balls<Dimension>& balls,
                                                                  const Cell& cell, const PairsAsked& asked);
 
 }  // namespace kds

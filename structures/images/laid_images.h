@@ -1,5 +1,6 @@
 #pragma once
-// The images of beads in a periodic cell at one time, found without the search of near_images.h. For audits.
+// The images of beads in a periodic cell at one time, found without the search of near_images.h: for audits
+// and for collisions at frames.
 
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -28,8 +29,9 @@ class LaidImages {
   /// Lays those of balls with other radii, one for each bead.
   LaidImages(const Curves<D>& curves, double u, std::vector<double> radii)
       : LaidImages(approximate_positions(curves, u), std::move(radii), cell_at(curves, u)) {}
-  LaidImages(const Eigen::Matrix3Xd& centers, std::vector<double> radii, const Cell& cell_of_beads)
-      : images_(cell_of_beads), beads_(static_cast<BeadId>(radii.size())), radii_(std::move(radii)) {
+  /// Lays those of balls in a cell.
+  LaidImages(const Eigen::Matrix3Xd& centers, std::vector<double> radii, const Cell& vectors)
+      : images_(vectors), beads_(static_cast<BeadId>(radii.size())), radii_(std::move(radii)) {
     const Eigen::Matrix3d cell = images_.reduced();  // multiples below are of these vectors
     // The rows of vectors that span nothing are zero.
     const Eigen::Matrix3d inverse = cell.completeOrthogonalDecomposition().pseudoInverse();
@@ -102,8 +104,7 @@ class LaidImages {
   [[nodiscard]] double spare() const { return 0x1p-40 * largest_; }
   /// Returns the distance of the nearest images of two beads, rounded.
   [[nodiscard]] double distance(BeadId a, BeadId b) const {
-    const Eigen::Vector3d difference = points_[b] - points_[a];
-    return images_.shifted(difference, images_.nearest(difference)).norm();
+    return images_.shortest(points_[b] - points_[a]).norm();
   }
 
  private:

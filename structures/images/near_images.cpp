@@ -53,11 +53,8 @@ template <int D>
 void NearImages<D>::lay_lattice(const Curves<D>& curves) {
   lattice_ = {};
   largest_ = 0;
-  std::vector<Cell> cells(row_, Cell::Zero());
-  for (std::size_t k = 0; k < row_; ++k)
-    for (int vector = 0; vector < D; ++vector)
-      for (int axis = 0; axis < D; ++axis)
-        cells[k](axis, vector) = curves.cell_coordinate(vector, static_cast<int>(k), axis);
+  std::vector<Cell> cells;
+  for (std::size_t k = 0; k < row_; ++k) cells.push_back(cell_of(curves, static_cast<int>(k)));
   const Images images(0.5 * (cells.front() + cells.back()));
   lattice_.steps = images.steps();
   lattice_.middle = images.reduced();

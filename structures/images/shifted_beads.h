@@ -24,6 +24,7 @@
 #include "motions/base/input_error.h"
 #include "motions/curves/curves.h"
 #include "motions/curves/motion.h"
+#include "motions/frames/periodic.h"
 
 namespace kds {
 
@@ -51,6 +52,31 @@ template <std::size_t N>
   return vector;
 }
 
+/// Returns a coordinate of a shift at control point k of the curves' cell, rounded.
+template <int D>
+[[nodiscard]] double shift_coordinate(const Curves<D>& curves, const CellShift<D>& shift, int k, int axis) {
+  double sum = 0;
+  for (int vector = 0; vector < D; ++vector)
+    sum += shift[static_cast<std::size_t>(vector)] * curves.cell_coordinate(vector, k, axis);
+  return sum;
+}
+/// Returns a bound of the terms of shift_coordinate, for margins of rounding.
+template <int D>
+[[nodiscard]] double size_of_shift(const Curves<D>& curves, const CellShift<D>& shift, int k, int axis) {
+  double sum = 0;
+  for (int vector = 0; vector < D; ++vector)
+    sum += std::abs(shift[static_cast<std::size_t>(vector)] * curves.cell_coordinate(vector, k, axis));
+  return sum;
+}
+/// Returns the cell of the curves at control point k.
+template <int D>
+[[nodiscard]] Cell cell_of(const Curves<D>& curves, int k) {
+  Cell cell = Cell::Zero();
+  for (int vector = 0; vector < D; ++vector)
+    for (int axis = 0; axis < D; ++axis) cell(axis, vector) = curves.cell_coordinate(vector, k, axis);
+  return cell;
+}
+
 /// Numbers shifts in the order in which they are first asked for. Shift 0 is none.
 template <int Dimension>
 class ShiftNumbers {
@@ -64,7 +90,7 @@ class ShiftNumbers {
   [[nodiscard]] std::uint32_t number_of(const CellShift<Dimension>& shift) {
     for (const std::int32_t multiple : shift)
       if (std::abs(multiple) > most)
-        throw InputError("two beads in contact are more than a million cells apart; expected fewer");
+        throw InputError("two beads are more than a million cells apart; expected fewer");
     const auto [found, is_new] = numbers_.try_emplace(shift, static_cast<std::uint32_t>(shifts_.size()));
     if (is_new) shifts_.push_back(shift);
     return found->second;

@@ -90,9 +90,11 @@ int compare_gaps(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Exact
     }
     if (total.is_exact()) return total.sign();
   }
-  // Computes the sign of sqrt(p) - (sqrt(q) + u).
-  const Rational p = square_in_rationals(a, b), q = square_in_rationals(c, d);
-  const Rational u = Rational(r.first) + Rational(r.second) - Rational(s.first) - Rational(s.second);
+  return compare_gaps(square_in_rationals(a, b), square_in_rationals(c, d),
+                      Rational(r.first) + Rational(r.second) - Rational(s.first) - Rational(s.second));
+}
+
+int compare_gaps(const Rational& p, const Rational& q, const Rational& u) {
   const int right = sign_of_difference(u, Rational(-1), q);
   if (right < 0) return 1;
   return sign_of_difference(p - q - u * u, 2 * u, q);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "motions/numbers/exact_number.h"
+
 namespace kds {
 
 /// Exactly high + low, where high is the rounded sum.
@@ -104,6 +106,9 @@ struct ExactSum {
 /// apart if r and s are the sums of their radii. All arguments are finite.
 [[nodiscard]] int compare_gaps(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const ExactSum& r,
                                const Eigen::Vector3d& c, const Eigen::Vector3d& d, const ExactSum& s);
+
+/// Returns the sign of sqrt(p) - (sqrt(q) + u). p and q are not negative.
+[[nodiscard]] int compare_gaps(const Rational& p, const Rational& q, const Rational& u);
 
 /// Returns the sign of (|x - a|^2 - v) - (|x - b|^2 - w) exactly: which power is larger at x. All arguments
 /// are finite.

@@ -128,8 +128,9 @@ class KineticRun {
   void limit_work(std::uint64_t most);
   void watch_work(std::function<void()> watcher, std::uint64_t every);
 
-  /// Adds the next frame, and runs all steps whose motion is then known. Throws InputError, and changes
-  /// nothing, if the coordinates are not a frame of these beads.
+  /// Adds the next frame, and runs all steps whose motion is then known. `cell` is its cell, if it is another
+  /// than that of the frame before. Throws InputError, and changes nothing, if the coordinates or the cell
+  /// are not those of a frame of these beads.
   void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt,
             const std::optional<Cell>& cell = std::nullopt);
   /// Adds the next frame like `push`, but leaves the step that becomes known to the calls below. A step left

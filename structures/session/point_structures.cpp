@@ -262,7 +262,7 @@ void add_point_structures(StructureRegistry& registry) {
                     },
                     [](const ConvexHull&, const Centers& centers) { return hull_by_cgal(centers); })});
   registry.add({.name = "closest",
-                .about = "closest pair of centres, in the plane or in space",
+                .about = "closest pair of centres, of nearest images in a cell; in the plane or in space",
                 .net_changes = "the pair",
                 .order = 16,
                 .refusal = [](const Scene& scene) -> std::optional<std::string> {

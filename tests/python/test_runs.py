@@ -16,7 +16,7 @@ import zlib
 import numpy as np
 
 import kds
-from data import DCD, PDB, RESIDUES, coil, program, program_warnings, universe
+from data import DATA, DCD, PDB, RESIDUES, coil, program, program_warnings, universe
 
 
 def resident_bytes():
@@ -461,6 +461,33 @@ class Driving(unittest.TestCase):
         self.assertEqual(events.size, 0)
         events = run.push([[1, 5, 5], [1, 5, 5]])      # wrapped: from 9 on to 11
         self.assertEqual(events["kind"].tolist(), ["begin"])
+        events = run.push([[1, 5, 5], [1, 5, 5]], cell=(20, 10, 10, 90, 90, 90))  # the second bead is at 11 in it
+        self.assertEqual(events["kind"].tolist(), [])
+        run.finish()
+
+    def test_edits_in_a_cell(self):
+        water = os.path.join(DATA, "trajectories", "enkephalin_water")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            run = kds.KineticRun(water + ".xtc", topology=water + ".gro", select="//*", radius=1.7, stop=4,
+                                 structures=["closest", "contacts"])
+        for bead in (2, 90, 400):
+            run.go_to(run.frame + 0.75)
+            for name in run.structures:
+                run.erase(name, bead)
+                run.audit()
+                run.insert(name, bead)
+                run.audit()
+            points = run.control_points()[[bead]]
+            points[0, 0] += 0.5
+            run.bend([bead], points)
+            run.audit()
+        run.finish()
+
+    def test_pushed_in_a_planar_cell(self):
+        run = kds.KineticRun.pushed(2, 1, structures=["contacts"], dimension=2, apart=1, cell=(10, 10, 9, 90, 90, 90))
+        run.push([[1, 5], [5, 5]])
+        self.assertEqual(run.push([[1, 5], [9.5, 5]])["kind"].tolist(), ["begin"])
         run.finish()
 
     def test_steps_events_and_times_are_those_of_a_run(self):

@@ -38,11 +38,32 @@ TEST(Closer, IsTheSignOfTheDifferenceOfSquares) {
   expect_sign_of_the_difference<BezierMotion<3, 3>>(43);
 }
 
+// The difference of beads 4 and 5 is a shift of the second pair's second bead.
+TEST(Closer, TakesShifts) {
+  test::Random random(44);
+  for (int i = 0; i < 20; ++i) {
+    const auto motion = test::random_motion<BezierMotion<3, 1>>(
+        random, 6, test::all_motion_kinds[static_cast<std::size_t>(i) % test::all_motion_kinds.size()]);
+    const Dyadic time = test::random_dyadic(random);
+    std::array<test::RationalPoint, 6> at;
+    for (BeadId b = 0; b < 6; ++b) at[b] = test::point_at(motion, b, time);
+    const test::RationalPoint shift = test::minus(at[4], at[5]);
+    test::RationalPoint moved = at[3];
+    for (std::size_t axis = 0; axis < moved.size(); ++axis) moved[axis] += shift[axis];
+    EXPECT_EQ(test::sign_at(Closer({{0, 1}}, {{2, 3}, {4, 5}}), motion, time),
+              test::sign(square(at[2], moved) - square(at[0], at[1])));
+  }
+}
+
 TEST(Closer, HasOneIdentityBothWays) {
   const Closer one({5, 7}, {2, 9}), other({2, 9}, {5, 7});
   EXPECT_EQ(one.identity(), other.identity());
   EXPECT_NE(one.side(), other.side());
   EXPECT_NE(one.identity(), Closer({5, 9}, {2, 7}).identity());
+  const Closer::Pair image{{5, 7}, {10, 11}}, other_image{{5, 7}, {12, 13}}, pair{{2, 9}};
+  EXPECT_EQ(Closer(image, pair).identity(), Closer(pair, image).identity());
+  EXPECT_NE(Closer(image, pair).identity(), Closer(other_image, pair).identity());
+  EXPECT_NE(Closer(image, other_image).side(), Closer(other_image, image).side());
 }
 
 }  // namespace

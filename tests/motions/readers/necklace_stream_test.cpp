@@ -199,7 +199,6 @@ TEST(NecklaceStream, TellsOfNoImageThatIsNearerByRoundingOnly) {
   EXPECT_FALSE(read(models({10.1}, 2, false), "A,B")[1].warnings.empty());
 }
 
-// Frames without a time must not shift the times of later frames.
 // Waters in a file without names, wrapped atom by atom: no bead moves farther than it has.
 TEST(NecklaceStream, DividesUnnamedMolecules) {
   test::Random random(3);
@@ -230,6 +229,7 @@ TEST(NecklaceStream, DividesUnnamedMolecules) {
     EXPECT_LT((read.frames[k] - read.frames[k - 1]).colwise().norm().maxCoeff(), 1.8) << "frame " << k;
 }
 
+// Frames without a time must not shift the times of later frames.
 TEST(NecklaceStream, TimesAreThoseOfTheirFrames) {
   test::NetcdfMaker maker = test::NetcdfMaker::chain(4, 3);
   maker.times[1] = std::numeric_limits<double>::quiet_NaN();

@@ -174,7 +174,7 @@ TEST(DiscreteStepAdapter, LaysCellsInTheirPlane) {
     scene.load(0, step);
     ASSERT_NE(step.cell(), nullptr);
     const std::array<int, 2> axes{across == 0 ? 1 : 0, across == 2 ? 1 : 2};
-    // The plane may name its axes in either order, so that the beads say which is which.
+    // The plane may name its axes in either order, so the test compares with the beads.
     const bool turned = step.coordinate(0, 0, 0) != trajectory.frames[0](axes[0], 0);
     for (int axis = 0; axis < 2; ++axis) {
       const int in_input = axes[static_cast<std::size_t>(turned ? 1 - axis : axis)];

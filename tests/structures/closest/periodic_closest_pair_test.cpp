@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "structures/closest/kinetic_closest_pair.h"
+#include "structures/closest/least_distance.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_cells.h"
 #include "tests/support/judges/moving_points.h"
@@ -133,6 +134,26 @@ TEST(PeriodicClosestPair, AnotherImageOfTheSamePairIsNoEvent) {
   step = moving({{0, 0, 0}, {0, 0, 0}, {0, 8, 0}}, {{0, 0, 0}, {16, 0, 0}, {0, 8, 0}});
   step.own_cell().set(box(16, 16, 16), box(16, 16, 16), 1);
   EXPECT_THAT(told(expect_right<Space>({step}, 2)), IsEmpty());
+}
+
+TEST(PeriodicClosestPair, AuditsNoticeAPairThatIsNotTheClosest) {
+  Space step = moving({{0, 0, 0}, {4, 0, 0}, {15, 0, 0}}, {{0, 0, 0}, {4, 0, 0}, {15, 0, 0}});
+  step.own_cell().set(box(16, 16, 16), box(16, 16, 16), 1);
+  ClosestRig<Space> rig(step);
+  rig.run(std::vector<Space>{step});
+  EXPECT_EQ(rig.structure.audit(Dyadic(0.5)), std::nullopt);
+  rig.structure.apply({KineticClosestPair<3>::replace, 4, {0, 2, 0, 1}});
+  EXPECT_NE(rig.structure.audit(Dyadic(0.5)), std::nullopt);
+}
+
+TEST(PeriodicClosestPair, LeastDistanceOfAnImage) {
+  Space step = moving({{0, 0, 0}, {12, 1, 0}}, {{0, 0, 0}, {20, 1, 0}});
+  step.own_cell().set(box(16, 16, 16), box(16, 16, 16), 1);
+  const LeastDistance least = least_distance(Curves<3>(step), 0, 1, {-1, 0, 0});
+  EXPECT_LE(least.lower, 1);
+  EXPECT_GE(least.upper, 1);
+  EXPECT_LT(least.upper - least.lower, 1e-9);
+  EXPECT_NEAR(least.at, 0.5, 1e-4);
 }
 
 template <class M>
