@@ -5,6 +5,7 @@
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"
 #include "certificates/types/precedes.h"
+#include "certificates/types/segments.h"
 
 namespace kds {
 
@@ -50,6 +51,24 @@ template std::unique_ptr<CertificateSearch<Contact>> search_over(const MotionRef
 
 template std::unique_ptr<CertificateSearch<ImageContact>> search_over(const MotionRef<2>&);
 template std::unique_ptr<CertificateSearch<ImageContact>> search_over(const MotionRef<3>&);
+
+// Asked for at few times only, where four points are coplanar.
+template <>
+std::unique_ptr<CertificateSearch<CrossComponent<0>>> search_over(const MotionRef<3>& motion) {
+  return detail::search_one_by_one<CrossComponent<0>>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<CrossComponent<1>>> search_over(const MotionRef<3>& motion) {
+  return detail::search_one_by_one<CrossComponent<1>>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<CrossComponent<2>>> search_over(const MotionRef<3>& motion) {
+  return detail::search_one_by_one<CrossComponent<2>>(motion);
+}
+template <>
+std::unique_ptr<CertificateSearch<BeyondEnds>> search_over(const MotionRef<3>& motion) {
+  return detail::search_one_by_one<BeyondEnds>(motion);
+}
 
 template <int Dimension>
 std::unique_ptr<CertificateSearch<SameTurn<Dimension>>> same_turn_search(const MotionRef<Dimension>& motion) {

@@ -1,0 +1,63 @@
+#pragma once
+// Exact continuous collision detection of a point with a triangle and of two segments. All move on Bezier
+// curves of one degree; everything is closed: ends of edges, corners of triangles, and the ends of the step.
+//
+// Four points meet in one of these ways only while they are coplanar. Their orientation is a polynomial of
+// degree 3k, whose roots are found one after the other. At each root, signs of polynomials of degree 2k
+// decide whether the features meet (segments.h): seen along an axis on which their plane does not stand
+// upright, the problem is one in the plane; if the triangle is flat or the segments are parallel, it is one
+// on a line.
+//
+// If the points stay coplanar for the whole step, contact lasts. It can begin and end only where an end of
+// one edge meets the other edge, or the point an edge of the triangle. These times are roots of the
+// polynomials above; all of them are examined, and one time between each two.
+//
+// Doubles with error bounds decide where they can, integers elsewhere. All answers are exact.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace kds {
+
+enum class ImpactKind : std::uint8_t {
+  vertex_face,  ///< the points are the vertex and the corners of the triangle
+  edge_edge,    ///< the points are the ends of the first edge and those of the second
+};
+
+/// A time at which two features begin to meet.
+struct Impact {
+  double lower = 0, upper = 0;  ///< bracket of the time; equal if the time is a double
+  /// Whether the orientation of the four points changes its sign, so that the features pass through each
+  /// other. False if they only touch, or stay coplanar.
+  bool passes = false;
+};
+
+/// Searches queries of one kind and degree, one after the other. May be used by one thread at a time.
+class ImpactSearch {
+ public:
+  /// Throws std::invalid_argument if the degree is not from 1 to 20.
+  explicit ImpactSearch(ImpactKind kind, int degree = 1);
+  ImpactSearch(const ImpactSearch&) = delete;
+  ImpactSearch& operator=(const ImpactSearch&) = delete;
+  ~ImpactSearch();
+
+  /// `points` holds the control points of each of the four points, one after the other, three coordinates
+  /// each. Throws InputError if it has another size or a number that is not finite.
+  [[nodiscard]] std::optional<Impact> first_impact(std::span<const double> points);
+  /// Returns all times at which the features begin to meet, ascending.
+  [[nodiscard]] std::vector<Impact> all_impacts(std::span<const double> points);
+
+  /// Returns how many signs and times integers have decided so far.
+  [[nodiscard]] std::uint64_t decided_by_integers() const;
+
+ private:
+  class Work;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace kds
