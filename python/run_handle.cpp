@@ -112,6 +112,11 @@ RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more,
 RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more, PushedFrames frames)
     : options_(pushed_options(arguments)) {
   frames.motion = options_.motion;
+  for (const std::string& name : options_.structures) {
+    const StructureSpec* const spec = structure_registry().find(name);
+    if (frames.cell && spec != nullptr && spec->lacks_images)
+      warn_of_images(name, [this](const std::string& warning) { warnings_.push_back(warning); });
+  }
   const Scene pattern(frames);  // the options are checked against its beads
   KineticRunOptions kinetic = kinetic_run_options(options_, pattern, options_.audit);
   kinetic.only = more.only;

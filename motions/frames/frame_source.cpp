@@ -192,12 +192,29 @@ void FrameQueue::push(std::span<const double> coordinates, std::optional<double>
     throw InputError(fmt::format("frame {}, bead {}: expected finite coordinates, found {}", pushed_,
                                  i / columns_, coordinates[i]));
   }
+  constexpr double most_cells = 100'000;
+  const double farthest = cell_ ? most_cells * Images(cell ? *cell : *cell_).reduced().col(0).norm() : 0;
+  for (std::size_t i = 0; cell_ && i < coordinates.size(); ++i) {
+    if (std::abs(coordinates[i]) <= farthest) continue;
+    throw InputError(
+        fmt::format("frame {}, bead {}: is more than {:.0f} times the width of the cell away from "
+                    "the origin; expected it nearer",
+                    pushed_, i / columns_, most_cells));
+  }
   if (cell && !(cell_ && have_same_vectors(*cell, *cell_)))
     throw InputError(
         fmt::format("frame {}: expected a cell that is periodic along the same vectors as the "
                     "run's, or none if the run has none",
                     pushed_));
-  if (cell) cell_ = continued(*cell, *cell_);
+  if (cell) {
+    const Cell next = continued(*cell, *cell_);
+    if (2 * (next - *cell_).norm() > Images(*cell_).reduced().col(0).norm())
+      throw InputError(
+          fmt::format("frame {}: its cell changes by more than half of the cell's shortest vector; "
+                      "expected smaller changes",
+                      pushed_));
+    cell_ = next;
+  }
   FrameRead& frame = waiting_.emplace_back();
   frame.stamp = {pushed_++, picoseconds};
   frame.cell = cell_;

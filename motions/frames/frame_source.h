@@ -113,7 +113,8 @@ class FrameQueue final : public FrameSource {
 
   /// Appends a frame: the coordinates of bead 0, then those of bead 1 and so on. Its cell is that of the
   /// frame before, unless another is given. Throws InputError, and ignores the frame, if the number of
-  /// coordinates is wrong, if one is not finite, or if the cell is periodic along other vectors than before.
+  /// coordinates is wrong, if one is not finite or more than 100,000 cells away, or if the cell is periodic
+  /// along other vectors than before or changes by more than half of its shortest vector.
   /// Throws std::logic_error after end().
   void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt,
             const std::optional<Cell>& cell = std::nullopt);

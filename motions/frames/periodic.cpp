@@ -339,6 +339,10 @@ void UnwrappedBeads::follow(WholeChain::Frame frame, const Cell& cell) {
   if (last_.cols() != frame.cols()) {
     shifts_ = Eigen::Matrix3Xd::Zero(3, frame.cols());
     last_ = frame;
+    for (Eigen::Index bead = 1; bead < frame.cols() && joins_first_; ++bead) {
+      shifts_.col(bead) = images.nearest(last_.col(bead) - frame.col(bead - 1));
+      frame.col(bead) = images.shifted(last_.col(bead), shifts_.col(bead));
+    }
     return;
   }
   for (Eigen::Index bead = 0; bead < frame.cols(); ++bead) {
@@ -362,16 +366,6 @@ SequenceInCell sequence_in_cell(const Eigen::Ref<const Eigen::Matrix3Xd>& beads,
   if (*middle > third) return SequenceInCell::fluid;
   return *std::max_element(middle, lengths.end()) > third ? SequenceInCell::several_chains
                                                           : SequenceInCell::chain;
-}
-
-bool join_across_walls(Eigen::Matrix3Xd& beads, const Images& images) {
-  bool moved = false;
-  for (Eigen::Index i = 1; i < beads.cols(); ++i) {
-    const Eigen::Vector3d shift = images.nearest(beads.col(i) - beads.col(i - 1));
-    moved = moved || !shift.isZero(0);
-    beads.col(i) = images.shifted(beads.col(i), shift);
-  }
-  return moved;
 }
 
 }  // namespace kds

@@ -146,10 +146,12 @@ class WholeChain {
 [[nodiscard]] Cell continued(const Cell& cell, const Cell& before);
 
 /// Follows single beads through the frames: a bead moves to the image nearest to where it was in the frame
-/// before, whatever the cell does in between. Beads of the first frame stay where they are. Each bead is
-/// moved by whole cell vectors of the present frame, in one rounding.
+/// before, whatever the cell does in between. Beads of the first frame stay where they are, unless they are
+/// joined. Each bead is moved by whole cell vectors of the present frame, in one rounding.
 class UnwrappedBeads {
  public:
+  /// Moves each bead of the first frame to the image nearest to the bead before it.
+  void join_first_frame() { joins_first_ = true; }
   void follow(WholeChain::Frame frame, const Cell& cell);
   /// Starts again: the next frame is the first.
   void restart() { last_.resize(3, 0); }
@@ -157,6 +159,7 @@ class UnwrappedBeads {
  private:
   Eigen::Matrix3Xd last_;    // the frame before, as the file has it
   Eigen::Matrix3Xd shifts_;  // of each bead, in cell vectors
+  bool joins_first_ = false;
 };
 
 /// How the beads of a file that names no molecules follow one another, by the distances of consecutive beads
@@ -168,8 +171,5 @@ enum class SequenceInCell {
 };
 [[nodiscard]] SequenceInCell sequence_in_cell(const Eigen::Ref<const Eigen::Matrix3Xd>& beads,
                                               const Cell& cell);
-
-/// Moves each bead to the image nearest to the bead before it. Returns whether any has moved.
-bool join_across_walls(Eigen::Matrix3Xd& beads, const Images& images);
 
 }  // namespace kds

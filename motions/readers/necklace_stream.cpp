@@ -162,9 +162,10 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
                                    groups_without_names(opened_.file, options.groups));
   if (!options.unwrap) look_for_molecules(first);
   find_pieces();
-  unwrap_ = options.unwrap.value_or(is_fluid_ ? Unwrap::beads : Unwrap::chains);
+  unwrap_ = options.unwrap.value_or(is_fluid_ || are_several_ ? Unwrap::beads : Unwrap::chains);
   if (is_fluid_) opened_.chain_like = false;
   if (unwrap_ == Unwrap::chains) place(first);
+  if (are_several_) paths_.follow(first.positions, *first.cell);
   drop_guides(first.positions);
   Eigen::Index begin = 0;
   for (std::size_t n = 0; n < heads_.size(); ++n) {
@@ -179,23 +180,15 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
 
 void NecklaceStream::look_for_molecules(const FrameRead& first) {
   if (!first.cell || !opened_.bonds.pieces.empty()) return;
-  std::vector<PieceRead> pieces;
-  bool are_several = false;
   Eigen::Index begin = 0;
   for (const Eigen::Index count : bead_counts_) {
-    Eigen::Matrix3Xd beads = first.positions.middleCols(begin, count);
-    const SequenceInCell sequence = sequence_in_cell(beads, *first.cell);
+    const SequenceInCell sequence = sequence_in_cell(first.positions.middleCols(begin, count), *first.cell);
     is_fluid_ = is_fluid_ || sequence == SequenceInCell::fluid;
-    pieces.push_back({static_cast<std::size_t>(begin), true});
-    if (sequence == SequenceInCell::several_chains) {
-      are_several = true;
-      (void)join_across_walls(beads, Images(*first.cell));
-      for (const std::size_t end : find_chain_breaks(beads, {}))
-        pieces.push_back({static_cast<std::size_t>(begin) + end + 1, false});
-    }
+    are_several_ = are_several_ || sequence == SequenceInCell::several_chains;
     begin += count;
   }
-  if (are_several && !is_fluid_) opened_.bonds.pieces = std::move(pieces);
+  are_several_ = are_several_ && !is_fluid_ && heads_.size() == 1;
+  if (are_several_) paths_.join_first_frame();
 }
 
 void NecklaceStream::place(FrameRead& first) {
@@ -279,7 +272,12 @@ WholeChain::Outcome NecklaceStream::make_whole(Piece& piece, Eigen::Matrix3Xd& p
   }
   Eigen::Matrix3Xd along = positions(Eigen::all, piece.route);
   // The bonds of a small molecule are too few to tell whether they become more alike.
-  const bool joined = !piece.placed && join_across_walls(along, *images);
+  bool joined = false;
+  for (Eigen::Index i = 1; i < along.cols() && !piece.placed; ++i) {
+    const Eigen::Vector3d step = images->nearest(along.col(i) - along.col(i - 1));
+    joined = joined || !step.isZero(0);
+    along.col(i) = images->shifted(along.col(i), step);
+  }
   const WholeChain::Outcome outcome = piece.whole.make_whole(along, *images);
   positions(Eigen::all, piece.route) = along;
   return joined ? WholeChain::Outcome::joined : outcome;
@@ -512,6 +510,13 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
                     "bead moves alone to "
                     "its nearest image ({} chains follows bonds)",
                     head.file, "--unwrap"_arg));
+  if (are_several_ && necklace == 0)
+    lines.push_back(fmt::format(
+        "{}: names no molecules, and some consecutive beads are too far apart to tell which of their images "
+        "are "
+        "bonded, so beads are joined in the first frame and each moves alone from there to its nearest image "
+        "({} chains joins them in each frame)",
+        head.file, "--unwrap"_arg));
   if (notes.pieces_left > 0 && frames_with_cell_ > 0 && unwrap_ == Unwrap::chains)
     lines.push_back(fmt::format(
         "{}: {} molecules are not bonded to the beads before them (waters, ions, lipids, residues of "

@@ -78,8 +78,8 @@ class NecklaceStream {
   };
   /// Reads the next frame; `next` adds what --until-damage asks for.
   [[nodiscard]] bool read(FrameRead& frame);
-  /// For a file that names no molecules, finds out whether its beads are a fluid, and divides several chains
-  /// at their breaks.
+  /// For a file that names no molecules, finds out whether its beads are a fluid or several chains, which
+  /// move bead by bead.
   void look_for_molecules(const FrameRead& first);
   /// Places the pieces of the first frame next to each other.
   void place(FrameRead& first);
@@ -105,6 +105,7 @@ class NecklaceStream {
   Unwrap unwrap_ = Unwrap::chains;
   std::optional<Cell> last_cell_;  ///< of the frame before
   bool is_fluid_ = false;          ///< `unwrap_` is beads because of the first frame
+  bool are_several_ = false;       ///< `unwrap_` is beads, and beads of the first frame are joined
   UnwrappedBeads paths_;           ///< if `unwrap_` is beads
   std::optional<double> time_step_;
   bool until_damage_;

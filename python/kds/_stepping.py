@@ -20,7 +20,8 @@ def _cell(name, cell):
         return []
     found = np.ravel(numbers(name, cell)).astype(float)
     if found.shape != (6,) or not np.all(np.isfinite(found)):
-        raise InputError(f"{name}: expected three lengths in angstrom and three angles in degrees, found {cell!r}")
+        raise InputError(f"{name}: expected three lengths in angstrom and three angles in degrees, found shape "
+                         f"{np.shape(cell)}")
     return found.tolist()
 
 
@@ -80,6 +81,7 @@ class KineticRun:
         _warn_of_threads(options)
         self._core = _kds.Run(run_arguments(cutoff, surface, options), more_options(only),
                               whole("dimension", dimension, 1), counts, radii, _cell("cell", cell))
+        warn(self._core.warnings())
         self._source = None
         self._clock = Clock(0, 1)
         self._pushed = 0

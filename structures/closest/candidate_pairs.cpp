@@ -167,19 +167,26 @@ std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curv
 template std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<2>&, std::span<const char>);
 template std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<3>&, std::span<const char>);
 
-// Consecutive beads give a first bound, which a search among the images within it makes tighter.
+// Beads that follow each other, along the chain and along each axis, give a first bound, which a search among
+// the images within it makes tighter.
 template <int Dimension>
 std::vector<ImagePair> candidate_images(const Curves<Dimension>& curves, ShiftNumbers<Dimension>& shifts,
                                         std::span<const char> absent) {
   const auto is_absent = [&](BeadId bead) { return bead < absent.size() && absent[bead] != 0; };
   const ImageDistances<Dimension> distances(curves);
   double limit = std::numeric_limits<double>::infinity();
-  BeadId before = no_bead;
-  for (BeadId bead = 0; bead < curves.bead_count(); ++bead) {
-    if (is_absent(bead)) continue;
-    if (before != no_bead)
-      limit = std::min(limit, distances.between(before, bead, distances.near_shift(before, bead)).most);
-    before = bead;
+  std::vector<BeadId> order;
+  for (BeadId bead = 0; bead < curves.bead_count(); ++bead)
+    if (!is_absent(bead)) order.push_back(bead);
+  for (int axis = -1; axis < Dimension; ++axis) {
+    if (axis >= 0)
+      std::sort(order.begin(), order.end(), [&](BeadId a, BeadId b) {
+        return curves.coordinate(a, 0, axis) < curves.coordinate(b, 0, axis);
+      });
+    for (std::size_t k = 1; k < order.size(); ++k) {
+      const BeadId a = std::min(order[k - 1], order[k]), b = std::max(order[k - 1], order[k]);
+      limit = std::min(limit, distances.between(a, b, distances.near_shift(a, b)).most);
+    }
   }
   if (!std::isfinite(limit)) return {};  // fewer than two beads, or doubles overflow
   const MotionRef<Dimension> motion(curves);

@@ -112,6 +112,10 @@ template <int D>
 std::vector<BeadPair> image_pairs_by_cells(const Balls<D>& balls, const Cell& cell, const PairsAsked& asked,
                                            double distance) {
   const NearestImages<D> images(balls, cell);
+  double largest = 0;
+  for (std::size_t b = 0; b < balls.size(); ++b) largest = std::max(largest, balls.rows()[b].radius);
+  if (2 * largest + distance > 4 * Images(cell).reduced().col(0).norm())  // too many images to lay out
+    return image_pairs_by_force(balls, cell, asked, distance);
   Eigen::Matrix3Xd centers(3, static_cast<Eigen::Index>(balls.size()));
   std::vector<double> radii;
   for (std::size_t b = 0; b < balls.size(); ++b) {

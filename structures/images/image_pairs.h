@@ -48,7 +48,8 @@ class NearestImages {
 template <int Dimension>
 [[nodiscard]] std::vector<BeadPair> image_pairs_by_force(const Balls<Dimension>& balls, const Cell& cell,
                                                          const PairsAsked& asked, double distance);
-/// Returns the same pairs, found by a grid of all images around the cell.
+/// Returns the same pairs, found by a grid of all images around the cell. If the reach is more than four
+/// times the length of the lattice's shortest vector, all pairs are tested.
 template <int Dimension>
 [[nodiscard]] std::vector<BeadPair> image_pairs_by_cells(const Balls<Dimension>& balls, const Cell& cell,
                                                          const PairsAsked& asked, double distance);

@@ -461,9 +461,21 @@ class Driving(unittest.TestCase):
         self.assertEqual(events.size, 0)
         events = run.push([[1, 5, 5], [1, 5, 5]])      # wrapped: from 9 on to 11
         self.assertEqual(events["kind"].tolist(), ["begin"])
-        events = run.push([[1, 5, 5], [1, 5, 5]], cell=(20, 10, 10, 90, 90, 90))  # the second bead is at 11 in it
+        events = run.push([[1, 5, 5], [1, 5, 5]], cell=(13, 10, 10, 90, 90, 90))  # moves with the cell, to 14
         self.assertEqual(events["kind"].tolist(), [])
         run.finish()
+
+    def test_a_frame_that_a_cell_cannot_hold_changes_nothing(self):
+        run = kds.KineticRun.pushed(2, 1, structures=["closest"], cell=(10, 10, 10, 90, 90, 90))
+        run.push([[1, 5, 5], [5, 5, 5]])
+        with self.assertRaisesRegex(kds.InputError, "^frame 1, bead 0: is more than 100000 times"):
+            run.push([[1e7, 5, 5], [5, 5, 5]])
+        with self.assertRaisesRegex(kds.InputError, "^frame 1: its cell changes"):
+            run.push([[1, 5, 5], [5, 5, 5]], cell=(50, 50, 50, 90, 90, 90))
+        run.push([[1, 5, 5], [5, 5, 5]])
+        run.finish()
+        with self.assertWarnsRegex(kds.InputWarning, "power ignores the images"):
+            kds.KineticRun.pushed(4, 1, structures=["power"], cell=(10, 10, 10, 90, 90, 90))
 
     def test_edits_in_a_cell(self):
         water = os.path.join(DATA, "trajectories", "enkephalin_water")

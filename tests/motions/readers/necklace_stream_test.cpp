@@ -200,7 +200,7 @@ TEST(NecklaceStream, TellsOfNoImageThatIsNearerByRoundingOnly) {
 }
 
 // Waters in a file without names, wrapped atom by atom: no bead moves farther than it has.
-TEST(NecklaceStream, DividesUnnamedMolecules) {
+TEST(NecklaceStream, FollowsUnnamedMolecules) {
   test::Random random(3);
   constexpr int waters = 30;
   Eigen::Matrix3Xd at(3, 3 * waters);
@@ -224,9 +224,28 @@ TEST(NecklaceStream, DividesUnnamedMolecules) {
     }
   }
   const Trajectory read = read_trajectory(test::write_file("waters.xyz", text));
-  EXPECT_THAT(read.warnings, testing::Contains(HasSubstr("molecules are not bonded to the beads before")));
-  for (std::size_t k = 1; k < read.frames.size(); ++k)
-    EXPECT_LT((read.frames[k] - read.frames[k - 1]).colwise().norm().maxCoeff(), 1.8) << "frame " << k;
+  EXPECT_THAT(read.warnings, testing::Contains(HasSubstr("names no molecules, and some consecutive beads")));
+  for (std::size_t k = 0; k < read.frames.size(); ++k) {
+    if (k > 0) {
+      EXPECT_LT((read.frames[k] - read.frames[k - 1]).colwise().norm().maxCoeff(), 1.8) << "frame " << k;
+    }
+    for (Eigen::Index b = 0; b < read.frames[k].cols(); ++b)
+      EXPECT_LT((read.frames[k].col(b) - read.frames[k].col(b - b % 3)).norm(), 1.1) << "frame " << k;
+  }
+}
+
+// Beads on both sides of a missing loop, across a wall, are in one image.
+TEST(NecklaceStream, JoinsAnUnnamedChainAcrossAMissingLoop) {
+  std::string text;
+  for (int frame = 0; frame < 2; ++frame) {
+    text += "20\nLattice=\"20 0 0 0 20 0 0 0 20\" Properties=species:S:1:pos:R:3\n";
+    for (int b = 0; b < 20; ++b) {
+      const double x = 10 + (b < 10 ? 0.5 * b : 0.5 * b + 7.5);
+      text += "X " + std::to_string(x < box ? x : x - box) + " 1 1\n";
+    }
+  }
+  const Trajectory read = read_trajectory(test::write_file("loop.xyz", text));
+  for (const Eigen::Matrix3Xd& frame : read.frames) EXPECT_NEAR(frame(0, 10) - frame(0, 9), 8, 1e-9);
 }
 
 // Frames without a time must not shift the times of later frames.

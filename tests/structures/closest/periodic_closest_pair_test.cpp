@@ -146,6 +146,15 @@ TEST(PeriodicClosestPair, AuditsNoticeAPairThatIsNotTheClosest) {
   EXPECT_NE(rig.structure.audit(Dyadic(0.5)), std::nullopt);
 }
 
+// Beads that follow each other along the chain are far apart, as in a slab.
+TEST(PeriodicClosestPair, OfAThinCell) {
+  Space step = moving({{0, 0, 0}, {0, 0, 400}, {1, 0, 0}}, {{0, 0, 0}, {0, 0, 400}, {3, 0, 0}});
+  step.own_cell().set(box(10, 10, 0), box(10, 10, 0), 1);
+  ClosestRig<Space> rig(step);
+  rig.run(std::vector<Space>{step});
+  EXPECT_THAT(*rig.structure.pair(), ElementsAre(0, 2));
+}
+
 TEST(PeriodicClosestPair, LeastDistanceOfAnImage) {
   Space step = moving({{0, 0, 0}, {12, 1, 0}}, {{0, 0, 0}, {20, 1, 0}});
   step.own_cell().set(box(16, 16, 16), box(16, 16, 16), 1);

@@ -47,7 +47,7 @@ void expect_right(CellKind kind, Random& random) {
   const PairsAsked asked{{{0, 4}, {5, 8}}};
   std::optional<BeadPair> closest;
   double gap = HUGE_VAL;
-  for (const double distance : {0.0, 0.25, 1.0, 2.5}) {
+  for (const double distance : {0.0, 0.25, 1.0, 2.5, 7.0}) {
     std::vector<BeadPair> right;
     for (BeadId a = 0; a < beads; ++a)
       for (BeadId b = a + 1; b < beads; ++b) {
