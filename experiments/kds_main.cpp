@@ -43,6 +43,7 @@ constexpr std::array kCommands{
     Command{"missed", "measure which contacts are missed if only frames are examined", missed_command},
     Command{"trade", "measure how much time each accuracy option saves and how large its errors are",
             trade_command},
+    Command{"ccd", "decide when a point meets a triangle, or two edges each other", ccd_command},
     Command{"sweep", "run commands over many inputs and settings, on this machine or a cluster",
             sweep_command},
     Command{"stability", "compare the two kernels on hard inputs", stability_command},

@@ -20,6 +20,8 @@ struct Command {
 /// Runs the program with these arguments. Turns each error into a one-line message and an exit code.
 [[nodiscard]] int run_arguments(const Arguments& arguments);
 
+/// `kds ccd`: answers queries of continuous collision. Returns 1 if a file's own answers are others.
+int ccd_command(const Arguments& arguments);
 /// `kds collide`: reports which beads collide in every frame of a trajectory, by each method.
 int collide_command(const Arguments& arguments);
 /// `kds compare`: reports how often structures change, by stride, motion and input.
