@@ -213,10 +213,10 @@ void ImpactSearch::Work::each_impact_in_plane(const Found& found) {
     Root root;
     ExactTime exact;
   };
-  std::vector<Candidate> candidates;
+  std::vector<std::unique_ptr<Candidate>> candidates;  // comparing narrows them
   const auto add = [&](Root root) {
     ExactTime exact = *root.time.exact_apart();
-    candidates.push_back({std::move(root), std::move(exact)});
+    candidates.push_back(std::make_unique<Candidate>(Candidate{std::move(root), std::move(exact)}));
     return true;
   };
   add({nullptr, Instant(0.0)});
@@ -237,19 +237,18 @@ void ImpactSearch::Work::each_impact_in_plane(const Found& found) {
     add_ends_on(2, 3, 1);
   }
   add({nullptr, Instant(1.0)});
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return ExactTime::compare(const_cast<ExactTime&>(a.exact), const_cast<ExactTime&>(b.exact)) < 0;
-  });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return ExactTime::compare(a->exact, b->exact) < 0; });
   bool before = false;  // whether they meet just before the candidate
   for (std::size_t k = 0; k < candidates.size(); ++k) {
-    Candidate& candidate = candidates[k];
+    Candidate& candidate = *candidates[k];
     const bool now = meet(candidate.root.time);
     if (now && !before && !found(impact_at(candidate.root.time, false))) return;
     if (k + 1 == candidates.size()) return;
-    if (ExactTime::compare(candidate.exact, candidates[k + 1].exact) == 0) {
+    if (ExactTime::compare(candidate.exact, candidates[k + 1]->exact) == 0) {
       before = now;
     } else {
-      before = meet(Instant(dyadic_between(candidate.exact, candidates[k + 1].exact)));
+      before = meet(Instant(dyadic_between(candidate.exact, candidates[k + 1]->exact)));
     }
   }
 }
