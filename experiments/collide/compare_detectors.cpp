@@ -53,7 +53,7 @@ class BruteForce final : public Detector<Dimension> {
  public:
   explicit BruteForce(const CollisionQuery& query) : query_(query) {}
   std::optional<std::string> refusal(const Balls<Dimension>&) const override {
-    // Of 300,000 beads, or 45,000 in a cell; takes half a minute per frame.
+    // These many pairs, those of 300,000 beads or 45,000 in a cell, take half a minute per frame.
     const std::uint64_t most = cell_ ? 1'000'000'000 : 45'000'000'000;
     const std::uint64_t pairs = PairsInQuestion(query_.asked).count();
     if (pairs <= most) return std::nullopt;

@@ -197,10 +197,8 @@ OptionList<InputOptions> make_input_options() {
       {{"--unwrap", "HOW",
         "how beads move through the walls of a periodic cell: chains (molecules are made whole and move as a "
         "whole), beads (each bead moves to the image nearest to its place in the frame before) or none (as "
-        "the "
-        "file has them) (default: chains; beads for a file that names no molecules and whose consecutive "
-        "beads "
-        "are as far apart as in a fluid)"},
+        "the file has them) (default: chains; beads for a file that names no molecules and whose consecutive "
+        "beads are not all near each other)"},
        [](InputOptions& o, const std::string& text) {
          o.reading.unwrap = choice_of("--unwrap", text, unwrap_names, Unwrap::none);
        },
