@@ -42,6 +42,18 @@ std::vector<BeadRange> bead_ranges(std::span<const NecklaceBeads> necklaces) {
   return ranges;
 }
 
+std::vector<BeadId> bonds_of(std::span<const NecklaceBeads> necklaces) {
+  std::vector<BeadId> bonds;
+  std::size_t first = 0;
+  for (const NecklaceBeads& necklace : necklaces) {
+    for (std::size_t b = 0; necklace.is_chain && b + 1 < necklace.count; ++b)
+      if (!std::binary_search(necklace.breaks.begin(), necklace.breaks.end(), b))
+        bonds.push_back(static_cast<BeadId>(first + b));
+    first += necklace.count;
+  }
+  return bonds;
+}
+
 std::vector<std::string> names_of_beads(std::span<const NecklaceBeads> necklaces) {
   std::vector<std::string> names;
   std::size_t first = 0;

@@ -34,6 +34,7 @@ struct NecklaceBeads {
   std::string element_lack = {};           ///< a message that says why elements are unknown, if any are
   /// b: beads b and b+1 are joined across a chain break or are not bonded at all; in ascending order.
   std::vector<std::size_t> breaks = {};
+  bool is_chain = true;    ///< consecutive beads are meant to be bonded
   BeadGroups groups = {};  ///< empty unless asked for
   bool at_rest = false;    ///< an obstacle, or a necklace of one frame beside others that move
 };
@@ -42,6 +43,9 @@ struct NecklaceBeads {
 [[nodiscard]] std::size_t count_beads(std::span<const NecklaceBeads> necklaces);
 /// Returns the beads of each necklace, which are numbered necklace after necklace.
 [[nodiscard]] std::vector<BeadRange> bead_ranges(std::span<const NecklaceBeads> necklaces);
+/// Returns the first bead of each bond, ascending: a bond joins two consecutive beads of a chain without a
+/// break.
+[[nodiscard]] std::vector<BeadId> bonds_of(std::span<const NecklaceBeads> necklaces);
 /// Returns a name for each bead, or nothing if no bead has a name.
 [[nodiscard]] std::vector<std::string> names_of_beads(std::span<const NecklaceBeads> necklaces);
 /// Returns the groups of each bead, or nothing if a necklace has none.

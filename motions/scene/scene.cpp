@@ -50,6 +50,7 @@ void Scene::take(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey,
                                  counted(count_beads(necklaces), "bead"), radii_.size()));
   check_radii(radii_);
   necklaces_ = bead_ranges(necklaces);
+  bonds_ = bonds_of(necklaces);
   at_rest_ = necklaces_at_rest(necklaces);
   bead_names_ = names_of_beads(necklaces);
   bead_groups_ = kds::bead_groups(necklaces);
@@ -74,6 +75,7 @@ Scene::Scene(PushedFrames frames) : radii_(std::move(frames.radii)), has_radii_(
   }
   if (necklaces.empty()) throw InputError("frames of no necklace: expected beads, found none");
   necklaces_ = bead_ranges(necklaces);
+  bonds_ = bonds_of(necklaces);
   const std::size_t beads = count_beads(necklaces);
   if (radii_.size() == 1) radii_.resize(beads, radii_.front());
   if (has_radii_ && radii_.size() != beads)
@@ -122,6 +124,7 @@ void Scene::push(std::span<const double> coordinates, std::optional<double> pico
 std::unique_ptr<const Scene> Scene::over(std::unique_ptr<FrameSource> frames) const {
   std::unique_ptr<Scene> scene(new Scene());
   scene->necklaces_ = necklaces_;
+  scene->bonds_ = bonds_;
   scene->at_rest_ = at_rest_;
   scene->bead_names_ = bead_names_;
   scene->bead_groups_ = bead_groups_;

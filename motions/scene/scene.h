@@ -107,6 +107,8 @@ class Scene {
   [[nodiscard]] FrameStamp stamp(std::size_t frame) const;
   [[nodiscard]] std::size_t frame_number(std::size_t frame) const { return stamp(frame).number; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
+  /// Returns the first bead of each bond (bonds_of). An instance has none.
+  [[nodiscard]] const std::vector<BeadId>& bonds() const { return bonds_; }
   /// Returns whether each necklace is at rest, or an empty vector if none is: obstacles, and necklaces of one
   /// frame beside others that move.
   [[nodiscard]] const std::vector<bool>& at_rest() const { return at_rest_; }
@@ -183,6 +185,7 @@ class Scene {
   }
 
   std::vector<BeadRange> necklaces_;
+  std::vector<BeadId> bonds_;
   std::vector<bool> at_rest_;            // empty, or one per necklace
   std::vector<std::string> bead_names_;  // empty, or one per bead
   BeadGroups bead_groups_;               // empty, or one per bead
