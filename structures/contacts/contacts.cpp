@@ -14,7 +14,6 @@
 #include "motions/curves/positions.h"
 #include "motions/scene/near_pairs.h"
 #include "structures/images/laid_images.h"
-#include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
 
@@ -95,13 +94,12 @@ std::vector<double> contact_radii(const ContactDistance& distance, std::span<con
 }
 
 template <int D>
-Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, PairsAsked asked,
+Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, const PairsAsked& asked,
                       std::vector<double> radii)
     : EditableBase(simulator, motion.bead_count(), "contacts", contact_kinds),
       own_radii_(radii.empty() ? nullptr : std::make_unique<OtherRadii<D>>(motion, radii)),
       motion_(own_radii_ ? MotionRef<D>(*own_radii_) : motion),
-      family_(asked, motion.degree()),
-      near_images_(std::move(asked)),
+      near_balls_(asked, motion.degree()),
       shifted_(motion.degree()),
       disjoint_(simulator, *this, index(), 0, motion_, TouchPolicy::reported,
                 whose_motion(own_radii_ != nullptr)),
@@ -114,29 +112,11 @@ Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, PairsAsk
       per_bead_(statistics.certificates, motion.bead_count()) {}
 
 template <int D>
-void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool list_overlapping,
+void Contacts<D>::find_pairs(typename NearBalls<D>::Resting resting, bool list_overlapping,
                              PairsOfImages& found) {
   const Curves<D> curves = motion_.curves();
-  if (curves.cell() != nullptr) {
-    if (simulator().kernel() == Kernel::exact) {
-      near_images_.find_by_boxes(curves, shifts_, found);
-    } else {
-      near_images_.find(curves, list_overlapping, shifts_, found);
-    }
-    if (shifts_.size() > 1) shifted_.set(curves, shifts_);
-  } else {
-    found.clear();
-    if (simulator().kernel() == Kernel::exact) {
-      PairsInQuestion(family_.asked()).for_each([&](BeadId i, BeadId j) {
-        found.unclear.push_back({{i, j}});
-      });
-    } else {
-      family_.find_pairs(curves, resting, list_overlapping, of_blocks_);
-      for (const BeadPair& pair : of_blocks_.unclear) found.unclear.push_back({pair});
-      for (const BeadPair& pair : of_blocks_.overlapping) found.overlapping.push_back({pair});
-      found.proved = family_.size() + of_blocks_.proved_apart;
-    }
-  }
+  near_balls_.find(curves, simulator().kernel(), resting, list_overlapping, shifts_, found);
+  if (shifts_.size() > 1) shifted_.set(curves, shifts_);
   const std::span<const char> absent = present().absent();
   if (absent.empty()) return;
   const auto names_absent = [absent](const ImagePair& p) {
@@ -163,8 +143,8 @@ void Contacts<D>::build() {
   contacts_.clear();
   several_.clear();
   knows_images_ = true;
-  family_.forget_rest();
-  find_pairs(MovingFamily<D>::Resting::looked_at, true, found_);
+  near_balls_.forget_rest();
+  find_pairs(NearBalls<D>::Resting::looked_at, true, found_);
   const Instant start(0.0);
   for (const ImagePair& image : found_.unclear) {
     InterruptionCheck::ask();
@@ -208,7 +188,7 @@ std::vector<BeadId> Contacts<D>::state() const {
 template <int D>
 void Contacts<D>::start_step() {
   forget_images();
-  find_pairs(MovingFamily<D>::Resting::left_out, false, found_);
+  find_pairs(NearBalls<D>::Resting::left_out, false, found_);
   disjoint_.hold_never(found_.proved);
   at_once_.clear();
   gather_several();
@@ -344,7 +324,7 @@ void Contacts<D>::find_of(std::span<const BeadId> beads) {
     return marks[p.pair.first] == 0 && marks[p.pair.second] == 0;
   };
   PairsOfImages found;
-  find_pairs(MovingFamily<D>::Resting::looked_at, true, found);
+  find_pairs(NearBalls<D>::Resting::looked_at, true, found);
   std::erase_if(found.unclear, names_none);
   std::erase_if(found.overlapping, names_none);
   at_once_.clear();
@@ -540,7 +520,7 @@ void Contacts<D>::apply(const Change& change) {
     throw std::invalid_argument("a change of contacts has other numbers of beads");
   if (apply_edit(change)) return;
   const BeadPair pair{change.ids[0], change.ids[1]};
-  if (!(pair.first < pair.second && pair.second < bead_count() && family_.asked().asks(pair)) ||
+  if (!(pair.first < pair.second && pair.second < bead_count() && near_balls_.asked().asks(pair)) ||
       is_absent(pair.first) || is_absent(pair.second))
     throw std::invalid_argument(
         fmt::format("beads {} and {} are no pair that is asked about", pair.first, pair.second));
@@ -556,7 +536,7 @@ void Contacts<D>::apply(const Change& change) {
 template <int D>
 std::optional<std::string> Contacts<D>::audit(const Dyadic& time) {
   if (is_periodic()) return fault_of_images(time);
-  return contact_fault<D>(motion_.curves(), disjoint_.search(), time, family_.asked(), present().absent(),
+  return contact_fault<D>(motion_.curves(), disjoint_.search(), time, near_balls_.asked(), present().absent(),
                           contacts_);
 }
 
@@ -572,7 +552,7 @@ std::optional<std::string> Contacts<D>::fault_of_images(const Dyadic& time) {
   std::optional<std::string> fault;
   laid.visit_near([&](BeadId a, BeadId b, const CellShift<D>& shift, double gap) {
     const BeadPair pair{a, b};
-    if (fault || !family_.asked().asks(pair)) return;
+    if (fault || !near_balls_.asked().asks(pair)) return;
     if (!absent.empty() && (absent[a] != 0 || absent[b] != 0)) return;
     const std::optional<std::uint32_t> number = shifts_.find(shift);
     if (!number && laid.is_clear(gap) && gap > 0) return;  // apart, and never in question

@@ -41,7 +41,7 @@
 #include "kds/structure_base.h"
 #include "motions/curves/other_radii.h"
 #include "structures/contacts/contact_distance.h"
-#include "structures/contacts/moving_family.h"
+#include "structures/contacts/near_balls.h"
 #include "structures/images/near_images.h"
 #include "structures/images/shifted_beads.h"
 #include "structures/necklace/bead_pairs.h"
@@ -153,7 +153,7 @@ class Contacts final : public EditableBase {
   enum Kind : std::uint8_t { begin, end, touch, inserts, erases, changes };
 
   /// `radii` has one radius for each bead. If it is empty, balls have the radii of the motion.
-  Contacts(Simulator& simulator, const MotionRef<Dimension>& motion, PairsAsked asked,
+  Contacts(Simulator& simulator, const MotionRef<Dimension>& motion, const PairsAsked& asked,
            std::vector<double> radii = {});
 
   /// Returns the pairs in contact just after the present time, ascending.
@@ -193,7 +193,7 @@ class Contacts final : public EditableBase {
   void drop_of(std::span<const BeadId> beads);
   void find_of(std::span<const BeadId> beads);
 
-  void find_pairs(typename MovingFamily<Dimension>::Resting resting, bool list_overlapping,
+  void find_pairs(typename NearBalls<Dimension>::Resting resting, bool list_overlapping,
                   PairsOfImages& found);
   [[nodiscard]] bool is_periodic() const { return motion_.curves().cell() != nullptr; }
   /// Creates the certificates of the pairs from this place on.
@@ -235,8 +235,7 @@ class Contacts final : public EditableBase {
 
   std::unique_ptr<const OtherRadii<Dimension>> own_radii_;  // null: the motion's
   MotionRef<Dimension> motion_;
-  MovingFamily<Dimension> family_;
-  NearImages<Dimension> near_images_;  // in place of the family if there is a cell
+  NearBalls<Dimension> near_balls_;
   ShiftNumbers<Dimension> shifts_;
   std::size_t shifts_in_use_ = 1;  // when they were numbered
   ShiftedBeads<Dimension> shifted_;
@@ -244,7 +243,6 @@ class Contacts final : public EditableBase {
   CertificateTable<ImageContact> disjoint_images_, overlapping_images_;  // of shifts other than 0
   ContactSet contacts_;
   std::unordered_map<std::uint64_t, SeveralImages> several_;
-  PairsOfBlocks of_blocks_;    // what the family finds
   PairsOfImages found_;        // images that may meet in the present step
   bool knows_images_ = false;  // not after changes from a log, which names pairs only
   std::vector<Happens> at_once_;
