@@ -1,7 +1,10 @@
 #pragma once
-// Certificates about segments and triangles: with the orientation of four points (orientation.h), their signs
-// say whether a point lies in a triangle and whether two segments meet. Exact; degree 2k for centres of
-// degree k.
+// Certificates about two segments, or about a point and a triangle: their signs say whether the four points
+// are coplanar, whether the point is in the triangle, and whether the segments meet. Exact; degree 3k
+// (orientation) and 2k for centres of degree k.
+//
+// In a periodic cell, points of the second feature may be moved by a shift, given exactly as the difference
+// `to - from` of two points (shifted_beads.h). Without a shift, one bead takes the place of both.
 
 #include <array>
 #include <cstddef>
@@ -12,14 +15,47 @@
 
 namespace kds {
 
-/// A component of the cross product (b - a) x (d - c) of two segments ab and cd.
+namespace detail {
+
+/// Returns the vector from p to q, where q is moved by the shift.
+template <MotionView View>
+[[nodiscard]] auto shifted_difference(const View& view, BeadId q, BeadId p, BeadId to, BeadId from) {
+  auto difference = view.difference(q, p);
+  const auto shift = view.difference(to, from);
+  for (std::size_t axis = 0; axis < difference.size(); ++axis) difference[axis] += shift[axis];
+  return difference;
+}
+
+}  // namespace detail
+
+/// The orientation of a, b, c, d, where c and d are moved by the shift: (b - a) x (c - a) . (d - c). If it
+/// becomes positive while the segments ab and cd pass through each other, the linking number of two closed
+/// strands that run along them rises by one.
+struct SegmentsOrientation {
+  static constexpr CertificateType type{20, "segments_orientation"};
+
+  std::array<BeadId, 6> beads{};  ///< a, b, c, d, to, from
+  int sign = 1;
+
+  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
+
+  [[nodiscard]] bool side() const { return sign > 0; }
+
+  template <MotionView View>
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 6>& b) {
+    return determinant(view.difference(b[1], b[0]), detail::shifted_difference(view, b[2], b[0], b[4], b[5]),
+                       view.difference(b[3], b[2]));
+  }
+};
+
+/// A component of the cross product (b - a) x (d - c), where d is moved by the shift.
 template <int Axis>
 struct CrossComponent {
   static_assert(0 <= Axis && Axis < 3);
   static constexpr std::array<CertificateType, 3> types{{{16, "cross_x"}, {17, "cross_y"}, {18, "cross_z"}}};
   static constexpr CertificateType type = types[Axis];
 
-  std::array<BeadId, 4> beads{};  ///< a, b, c, d; the segments may share ends
+  std::array<BeadId, 6> beads{};  ///< a, b, c, d, to, from; beads may occur twice
   int sign = 1;
 
   [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
@@ -27,19 +63,20 @@ struct CrossComponent {
   [[nodiscard]] bool side() const { return sign > 0; }
 
   template <MotionView View>
-  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 4>& beads) {
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 6>& b) {
     constexpr std::size_t next = (Axis + 1) % 3, last = (Axis + 2) % 3;
-    const auto first = view.difference(beads[1], beads[0]), second = view.difference(beads[3], beads[2]);
+    const auto first = view.difference(b[1], b[0]);
+    const auto second = detail::shifted_difference(view, b[3], b[2], b[4], b[5]);
     return minor(first[next], first[last], second[next], second[last]);
   }
 };
 
-/// Whether a point p on the line of a and b is beyond its ends: (a - p).(b - p) is positive there, zero at an
-/// end, and negative between the ends.
+/// Whether a point p on the line of a and b is beyond its ends, where a and b are moved by the shift:
+/// (a - p).(b - p) is positive there, zero at an end, and negative between the ends.
 struct BeyondEnds {
   static constexpr CertificateType type{19, "beyond_ends"};
 
-  std::array<BeadId, 3> beads{};  ///< a, b, p
+  std::array<BeadId, 5> beads{};  ///< a, b, p, to, from
   int sign = 1;
 
   [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
@@ -47,8 +84,9 @@ struct BeyondEnds {
   [[nodiscard]] bool side() const { return sign > 0; }
 
   template <MotionView View>
-  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 3>& beads) {
-    return dot(view.difference(beads[0], beads[2]), view.difference(beads[1], beads[2]));
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 5>& b) {
+    return dot(detail::shifted_difference(view, b[0], b[2], b[3], b[4]),
+               detail::shifted_difference(view, b[1], b[2], b[3], b[4]));
   }
 };
 

@@ -1,20 +1,9 @@
 #pragma once
 // Exact continuous collision detection of a point with a triangle and of two segments. All move on Bezier
 // curves of one degree; everything is closed: ends of edges, corners of triangles, and the ends of the step.
-//
-// Four points meet in one of these ways only while they are coplanar. Their orientation is a polynomial of
-// degree 3k, whose roots are found one after the other. At each root, signs of polynomials of degree 2k
-// decide whether the features meet (segments.h): seen along an axis on which their plane does not stand
-// upright, the problem is one in the plane; if the triangle is flat or the segments are parallel, it is one
-// on a line.
-//
-// If the points stay coplanar for the whole step, contact lasts. It can begin and end only where an end of
-// one edge meets the other edge, or the point an edge of the triangle. These times are roots of the
-// polynomials above; all of them are examined, and one time between each two.
-//
-// Doubles with error bounds decide where they can, integers elsewhere. All answers are exact.
+// Doubles with error bounds decide where they can, integers elsewhere. All answers are exact; feature_pair.h
+// says how they are found.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -22,12 +11,9 @@
 #include <span>
 #include <vector>
 
-namespace kds {
+#include "structures/impacts/feature_pair.h"
 
-enum class ImpactKind : std::uint8_t {
-  vertex_face,  ///< the points are the vertex and the corners of the triangle
-  edge_edge,    ///< the points are the ends of the first edge and those of the second
-};
+namespace kds {
 
 /// A time at which two features begin to meet.
 struct Impact {

@@ -13,6 +13,7 @@
 #include "motions/base/input_error.h"
 #include "tests/support/inputs/random.h"
 #include "tests/support/judges/impacts.h"
+#include "tests/support/property_runs.h"
 #include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
@@ -89,6 +90,7 @@ std::vector<int> random_points(Random& random, int degree, Made made) {
 }
 
 void try_random(ImpactKind kind, int degree, int count) {
+  count *= static_cast<int>(from_environment("KDS_IMPACT_ROUNDS", 1));  // multiplies the number of queries
   Random random(static_cast<unsigned>(530 + degree));
   for (int round = 0; round < rounds(count, 10); ++round) {
     for (const Made made : {Made::anywhere, Made::on_plane, Made::on_moving_plane, Made::on_line,

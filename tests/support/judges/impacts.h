@@ -43,16 +43,12 @@ class ImpactJudge {
 
   /// Returns the times at which the features begin to meet, ascending.
   [[nodiscard]] std::vector<JudgedTime> impacts() const {
-    const Polynomial coplanar = dot(cross(from(0, 1), from(0, 2)), from(0, 3));
+    const Polynomial coplanar = orientation();
     std::vector<JudgedTime> critical;
-    if (!coplanar.empty()) {
+    if (coplanar.empty()) {
+      critical = critical_in_plane();
+    } else {
       add_roots(coplanar, critical);
-    } else {  // the ends of the step, and all times at which an answer of `meet` may change
-      add_roots({0, -1, 1}, critical);
-      for (const Polynomial& p : all_compared()) add_roots(p, critical);
-      std::sort(critical.begin(), critical.end(), [](const JudgedTime& a, const JudgedTime& b) {
-        return sturm::compare(*a.sequence, a.root, *b.sequence, b.root) < 0;
-      });
     }
     std::vector<JudgedTime> times;
     bool before = false;
@@ -63,13 +59,45 @@ class ImpactJudge {
       before = now;
       if (k + 1 == critical.size()) break;
       const JudgedTime& next = critical[k + 1];
-      if (sturm::compare(*time.sequence, time.root, *next.sequence, next.root) != 0)
-        before = coplanar.empty() && meet(between(time, next));
+      if (!are_equal(time, next)) before = coplanar.empty() && meet(between(time, next));
     }
     return times;
   }
 
- private:
+  /// Returns the orientation of the four points.
+  [[nodiscard]] Polynomial orientation() const { return dot(cross(from(0, 1), from(0, 2)), from(0, 3)); }
+  [[nodiscard]] bool meet(const JudgedTime& at) const {
+    const Shares found = shares();
+    if (sign(found.whole, at) != 0) {
+      for (const Polynomial& share : found.shares)
+        if (sign(share, at) < 0 || sign(sum(found.whole, share, -1), at) < 0) return false;
+      return true;
+    }
+    return meet_at_end(at);
+  }
+  /// Returns whether an end of one edge is on the other, or the point on an edge of the triangle.
+  [[nodiscard]] bool meet_at_end(const JudgedTime& at) const {
+    for (const auto& [a, b, point] : ends_on_edges())
+      if (is_on_segment(a, b, point, at)) return true;
+    return false;
+  }
+  /// Returns whether the features meet at all times, while their points stay coplanar.
+  [[nodiscard]] bool meet_throughout() const {
+    const std::vector<JudgedTime> times = critical_in_plane();
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      if (!meet(times[k])) return false;
+      if (k + 1 < times.size() && !are_equal(times[k], times[k + 1]) &&
+          !meet(between(times[k], times[k + 1])))
+        return false;
+    }
+    return true;
+  }
+  [[nodiscard]] static JudgedTime number(const Rational& x) {
+    return {std::make_shared<const sturm::Sequence>(sturm::with_root(x)), {x, x}};
+  }
+  [[nodiscard]] static bool are_equal(const JudgedTime& a, const JudgedTime& b) {
+    return sturm::compare(*a.sequence, a.root, *b.sequence, b.root) == 0;
+  }
   static void add_roots(const Polynomial& f, std::vector<JudgedTime>& times) {
     if (f.size() < 2) return;
     const auto sequence = std::make_shared<const sturm::Sequence>(f);
@@ -81,9 +109,10 @@ class ImpactJudge {
       sturm::halve(*b.sequence, b.root);
     }
     const Rational x = (a.root.upper + b.root.lower) / 2;
-    return {std::make_shared<const sturm::Sequence>(sturm::with_root(x)), {x, x}};
+    return number(x);
   }
 
+ private:
   [[nodiscard]] static Polynomial sum(Polynomial a, const Polynomial& b, int sign = 1) {
     a.resize(std::max(a.size(), b.size()));
     for (std::size_t k = 0; k < b.size(); ++k) a[k] += sign * b[k];
@@ -165,16 +194,15 @@ class ImpactJudge {
     if (kind_ == ImpactKind::vertex_face) return {{1, 2, 0}, {2, 3, 0}, {3, 1, 0}};
     return {{0, 1, 2}, {0, 1, 3}, {2, 3, 0}, {2, 3, 1}};
   }
-  [[nodiscard]] bool meet(const JudgedTime& at) const {
-    const Shares found = shares();
-    if (sign(found.whole, at) != 0) {
-      for (const Polynomial& share : found.shares)
-        if (sign(share, at) < 0 || sign(sum(found.whole, share, -1), at) < 0) return false;
-      return true;
-    }
-    for (const auto& [a, b, point] : ends_on_edges())
-      if (is_on_segment(a, b, point, at)) return true;
-    return false;
+  /// Returns the ends of the step, and all times at which an answer of `meet` may change, ascending.
+  [[nodiscard]] std::vector<JudgedTime> critical_in_plane() const {
+    std::vector<JudgedTime> critical;
+    add_roots({0, -1, 1}, critical);
+    for (const Polynomial& p : all_compared()) add_roots(p, critical);
+    std::sort(critical.begin(), critical.end(), [](const JudgedTime& a, const JudgedTime& b) {
+      return sturm::compare(*a.sequence, a.root, *b.sequence, b.root) < 0;
+    });
+    return critical;
   }
   [[nodiscard]] std::vector<Polynomial> all_compared() const {
     const Shares found = shares();
