@@ -283,9 +283,9 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
   for (const std::string& name :
        options.structures.empty() ? default_structures(scene) : options.structures) {
     const StructureSpec* const spec = structure_registry().find(name);
-    if (spec != nullptr && spec->lacks_images && scene.is_periodic()) warn_of_images(name, warn);
-    if (name == "contacts") warn_of_cells("contacts", scene.lacks_images(), input, warn);
-    if (name == "closest") warn_of_cells("closest pairs", scene.lacks_images(), input, warn);
+    if (spec == nullptr) continue;
+    if (spec->lacks_images && scene.is_periodic()) warn_of_images(name, warn);
+    if (!spec->across_walls.empty()) warn_of_cells(spec->across_walls, scene.lacks_images(), input, warn);
   }
   return scene;
 }

@@ -175,6 +175,7 @@ void add_ball_structures(StructureRegistry& registry) {
            return "the points of an instance have no radii, and contacts are of balls; expected a trajectory";
          return std::nullopt;
        },
+       .across_walls = "contacts",
        .make = make_of_motion<2>([]<int D>(
                                      Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
                                      const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {

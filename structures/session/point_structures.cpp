@@ -269,6 +269,7 @@ void add_point_structures(StructureRegistry& registry) {
                   if (scene.dimension() < 2) return needs_plane_or_space(scene);
                   return std::nullopt;
                 },
+                .across_walls = "closest pairs",
                 .make = make_of_points<KineticClosestPair, 2>(
                     [](const auto& closest) {
                       const auto& pair = closest.pair();

@@ -147,6 +147,9 @@ struct StructureSpec {
   std::function<std::optional<std::string>(const Scene&)> refusal = [](const Scene&) {
     return std::optional<std::string>();
   };
+  /// What the structure finds across the walls of a periodic cell, for a message if the input's cells do not
+  /// serve. Empty if images make no difference to it, or if it lacks them.
+  std::string across_walls = {};
   /// Whether the structure is about near beads, but takes no images of them in a periodic cell.
   bool lacks_images = false;
   /// Returns whether the structure has events at all, and can be logged, replayed and audited between events.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "structures/crossings/crossings.h"
 #include "structures/hull/convex_hull.h"
 #include "structures/power_diagram/power_diagram.h"
 
@@ -100,6 +101,7 @@ const std::vector<LawStructure>& law_structures() {
       {"boxes", {.directions = 7}, Edits::beads, true, fault_of_boxes},
       {"power", {}, Edits::beads, false, fault_of_power},
       {"contacts", {}, Edits::beads, true, fault_of_contacts},
+      {"crossings", {}, Edits::none},
   };
   return rows;
 }
@@ -108,6 +110,8 @@ Beads state_now(const RunningStructure& structure) {
   Beads ids;
   // A hull's own state also has its tournaments, which a replay does not run.
   if (const auto* hull = dynamic_cast<const ConvexHull*>(&kinetic(structure))) return hull->corners();
+  // Between crossings nothing is left of them; their state is about the bonds that meet at a frame.
+  if (dynamic_cast<const Crossings*>(&kinetic(structure)) != nullptr) return ids;
   if (structure.replay_scheme().layers.empty()) return structure.state().value_or(ids);
   for (auto& layer : structure.replay_elements(false)) {
     std::sort(layer.begin(), layer.end());

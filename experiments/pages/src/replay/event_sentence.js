@@ -41,6 +41,10 @@ export function eventSentence({ structure, kind, roles, changes, nodes, names, d
       end: () => [leaves(ids.first[0]), " and ", leaves(ids.second[0]), " lose contact"],
       touch: () => [enters(ids.first[0]), " and ", enters(ids.second[0]), " touch at this instant only"],
     },
+    crossings: () => {
+      const verb = kind === "touch" ? "touch" : "pass through each other" + (kind.startsWith("end") ? " at a bead" : "");
+      return ["the bonds ", ...list(ids.first, enters), ", and ", ...list(ids.second, enters), `, ${verb}`];
+    },
     sorted: {
       interchange: () => [enters(ids.second[0]), " passes ", leaves(ids.first[0]), " along x", ranksText(changes)],
     },

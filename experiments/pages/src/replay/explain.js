@@ -10,6 +10,7 @@ const structures = {
   layered: "Layered hierarchy: each node of a balanced tree has a sphere around the spheres of its two children.",
   power: "Power diagram: an edge joins two beads whose cells share a face.",
   contacts: "Contacts: pairs of beads that are at most the cutoff apart, by default those that touch or overlap.",
+  crossings: "Crossings: moments at which two bonds that share no bead pass through each other or touch.",
   sorted: "Sorted list: the beads in order along an axis.",
   box: "Enclosing box: the smallest box around all beads.",
   hull: "Convex hull of the beads in the plane.",
@@ -41,6 +42,13 @@ const kinds = {
     begin: "Two beads come into contact.",
     end: "The contact of two beads ends.",
     touch: "Two beads are in contact at this one instant.",
+  },
+  crossings: {
+    cross_plus: "Two bonds pass through each other. The linking number of closed strands along them rises by one.",
+    cross_minus: "Two bonds pass through each other. The linking number of closed strands along them falls by one.",
+    end_plus: "An end of a bond passes through another bond. The strand passes if both bonds at the bead say plus.",
+    end_minus: "An end of a bond passes through another bond. The strand passes if both bonds at the bead say minus.",
+    touch: "Two bonds touch and do not pass through each other.",
   },
   sorted: { interchange: "Two neighbours in the list exchange places." },
   hull: {

@@ -1,0 +1,70 @@
+#pragma once
+// Judges which bonds of chains pass through each other between frames of whole coordinates, by the impacts of
+// all pairs of bonds (impacts.h). Uses nothing of certificates/ or structures/crossings.
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "structures/crossings/crossings.h"
+#include "tests/support/judges/impacts.h"
+
+namespace kds::test {
+
+struct JudgedCrossing {
+  std::size_t step = 0;
+  JudgedTime time;
+  Crossings::Kind kind{};
+  std::array<BeadId, 4> beads{};
+};
+
+/// Frames of beads with whole coordinates, bead after bead.
+using WholeFrames = std::vector<std::vector<std::array<int, 3>>>;
+
+/// Appends the events of the bonds a to a+1 and b to b+1, ascending in time.
+inline void judge_bonds(const WholeFrames& frames, BeadId a, BeadId b, std::vector<JudgedCrossing>& events) {
+  const std::array<BeadId, 4> beads{a, a + 1, b, b + 1};
+  int before = 0;  // the sign, 0 if it is unknown
+  for (std::size_t step = 0; step + 1 < frames.size(); ++step) {
+    std::vector<int> points;
+    for (const BeadId bead : beads)
+      for (const std::size_t frame : {step, step + 1})
+        points.insert(points.end(), frames[frame][bead].begin(), frames[frame][bead].end());
+    const ImpactJudge judge(ImpactKind::edge_edge, 1, points);
+    const sturm::Polynomial orientation = judge.orientation();
+    const JudgedTime start = ImpactJudge::number(0);
+    if (orientation.empty()) {
+      if (!judge.meet(start) || !judge.meet_throughout()) before = 0;
+      continue;
+    }
+    std::vector<JudgedTime> times;
+    ImpactJudge::add_roots(orientation, times);
+    const auto sign_after = [&](std::size_t k) {
+      const JudgedTime next = k + 1 < times.size() ? times[k + 1] : ImpactJudge::number(1);
+      return sturm::sign_at(orientation, ImpactJudge::between(times[k], next).root.lower);
+    };
+    const auto add = [&](const JudgedTime& time, int after) {
+      if (!judge.meet(time)) return;
+      Crossings::Kind kind = Crossings::touch;
+      if (before == -after) {
+        const bool at_end = judge.meet_at_end(time);
+        kind = after > 0 ? (at_end ? Crossings::end_plus : Crossings::cross_plus)
+                         : (at_end ? Crossings::end_minus : Crossings::cross_minus);
+      }
+      events.push_back({step, time, kind, beads});
+    };
+    std::size_t k = 0;
+    if (!times.empty() && ImpactJudge::are_equal(times[0], start)) {
+      if (step > 0) add(start, sign_after(0));
+      before = sign_after(k++);
+    } else {
+      before = sturm::sign_at(orientation, 0);
+    }
+    for (; k < times.size() && !ImpactJudge::are_equal(times[k], ImpactJudge::number(1)); ++k) {
+      add(times[k], sign_after(k));
+      before = sign_after(k);
+    }
+  }
+}
+
+}  // namespace kds::test
