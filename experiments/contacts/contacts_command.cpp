@@ -174,6 +174,8 @@ ContactsFound find_contacts(const ContactsTask& task,
   warn_of_cells("contacts", found.scene->lacks_images(), options_of_input(task), warn);
   hint_at_threads(task.threads, found.scene->step_count(), found.scene->bead_count(), warn);
   found.report = follow_contacts(task, *found.scene, progress);
+  const std::optional<CrossingCounts>& crossings = found.report->crossings;
+  if (crossings && crossings->crosses + crossings->at_ends > 0) warn(crossings->sentence());
   found.figures = figures_of(*found.report);
   if (task.certify) found.figures.certificate = certify_contacts(task, *found.scene, *found.report, progress);
   if (found.figures.all.contacts == 0) warn_of_none(task, *found.scene, *found.report, warn);

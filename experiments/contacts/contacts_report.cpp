@@ -253,6 +253,7 @@ void add_contacts(const ContactsReport& report, const ContactsFigures& figures, 
   add_estimate(sums, "end_rate", all.end_rate);
   add_estimate(sums, "median", figures.survival.median);
   json["all"] = std::move(sums);
+  if (report.crossings) json["crossings"] = report.crossings->json();
   if (figures.certificate) json["stride"] = certificate_json(figures);
   json["rows"] = pair_columns(report, figures).json(rows_of(report, figures));
   json["frames"] = sampling_columns(report).json(sampling_rows(report));
@@ -371,7 +372,8 @@ std::string contacts_text(const ContactsReport& report, const ContactsFigures& f
   constexpr std::size_t most = 20;
   std::string text =
       "Times are exact for the paths between the frames that are given; the spacing of frames is the "
-      "error.\n\n" +
+      "error.\n" +
+      (report.crossings ? fmt::format("Crossings: {}.\n", report.crossings->sentence()) : "") + "\n" +
       sampling_columns(report).text(sampling_rows(report));
   if (figures.certificate) {
     text += '\n';

@@ -12,6 +12,7 @@
 #include "motions/readers/bead_name.h"
 #include "structures/contacts/contact_distance.h"
 #include "structures/contacts/contacts.h"
+#include "structures/crossings/crossings.h"
 #include "structures/necklace/pairs_in_question.h"
 #include "structures/session/parallel_run.h"
 
@@ -96,7 +97,7 @@ template <int D>
 class ContactsRun {
  public:
   ContactsRun(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
-              const CutoffRadii& radii, const BeadGroups& groups)
+              const CutoffRadii& radii, const BeadGroups& groups, bool with_crossings = false)
       : task_(task),
         scene_(scene),
         run_(scene, {.by_default = false}, {.threads = task.threads.value_or(all_threads())}) {
@@ -104,6 +105,8 @@ class ContactsRun {
                            scene.at_rest()};
     run_.add<Contacts<D>>(asked, radii.inner);
     if (!radii.outer.empty()) run_.add<Contacts<D>>(asked, radii.outer);
+    if constexpr (D == 3)
+      if (with_crossings) run_.add<Crossings>(ChainBonds(scene), scene.is_periodic());
   }
 
   /// Follows the contacts by one more rule. Events reach the rules in the order of these calls.
@@ -111,6 +114,11 @@ class ContactsRun {
     followed_.push_back({rule.inner, rule.outer,
                          std::make_unique<ContactIntervals>(run_.simulator(), rule, std::move(sink))});
     run_.listen(*followed_.back().intervals);
+  }
+
+  /// Returns the crossings of bonds, after the run.
+  [[nodiscard]] CrossingCounts crossings() {
+    return CrossingCounts(run_.whole().structures().back()->statistics.events_by_kind);
   }
 
   void run(const std::function<void(std::size_t frame)>& at_frame) {
@@ -161,7 +169,7 @@ void check_times_ascend(const ContactsTask& task, const Scene& scene) {
 template <int D>
 void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report,
             const std::function<void(std::size_t, std::size_t)>& progress) {
-  ContactsRun<D> run(task, scene, report, radii_of(task, scene), scene.bead_groups());
+  ContactsRun<D> run(task, scene, report, radii_of(task, scene), scene.bead_groups(), has_crossings(scene));
   ContactRule outer_rule = inner_rule_of(task, report);
   outer_rule.inner = outer_rule.outer = rule_of(task, report).outer;
   FrameContacts& frames = *report.frames;
@@ -181,6 +189,7 @@ void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report
     progress(frame, scene.step_count());
   });
   frames.finish();
+  if (has_crossings(scene)) report.crossings = run.crossings();
 }
 
 template <int D>

@@ -11,6 +11,7 @@
 
 #include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
+#include "experiments/run/count_crossings.h"
 #include "motions/base/bead_groups.h"
 #include "motions/scene/scene.h"
 #include "structures/contacts/contact_elements.h"
@@ -90,6 +91,7 @@ struct ContactsReport {
   std::unique_ptr<FrameContacts> frames;
   std::vector<IntervalRecord> intervals;  ///< in the order of their ends
   ContactCourse course;
+  std::optional<CrossingCounts> crossings;  ///< of bonds, if the scene has any
 
   [[nodiscard]] bool has_times() const { return clock == ContactClock::picoseconds; }
   [[nodiscard]] std::string unit() const { return has_times() ? "ps" : "frames"; }

@@ -10,6 +10,7 @@
 #include "experiments/program/commands.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
+#include "experiments/run/count_crossings.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/scenes/scene_info.h"
 #include "motions/base/input_error.h"
@@ -146,8 +147,8 @@ void describe_beads(const InfoOptions& options, TableCommand& command) {
 }
 
 void describe(const InfoOptions& options, TableCommand& command) {
-  const auto frames = open_frames(options, command.warn());
-  const FrameSurvey survey = survey_frames(*frames, options.radius == "auto", command.warn());
+  auto frames = open_frames(options, command.warn());
+  FrameSurvey survey = survey_frames(*frames, options.radius == "auto", command.warn());
   const std::vector<double> radii = bead_radii(options.radius, frames->necklaces(), survey);
   SceneInfo info = describe_frames(frames->heads(), frames->frame_counts(), *frames, radii, options.validate,
                                    command.progress());
@@ -157,9 +158,20 @@ void describe(const InfoOptions& options, TableCommand& command) {
   info.length_unit = length_unit(options);
   Json json;
   add_scene(json, info);
+  std::string text = scene_table(info);
+  if (survey.frame_count > 1) {
+    frames->seek(0);
+    survey.periodic = survey.periodic && options.periodic;
+    const Scene scene(std::move(frames), survey, radii);
+    if (has_crossings(scene)) {
+      const CrossingCounts crossings = count_crossings(scene, command.progress());
+      json["crossings"] = crossings.json();
+      text += fmt::format("\ncrossings  {}\n", crossings.sentence());
+    }
+  }
   json["settings"] = info_options().settings_json(options);
   json["warnings"] = command.warnings();
-  command.deliver(json, conditions_csv(info), scene_table(info));
+  command.deliver(json, conditions_csv(info), text);
 }
 
 }  // namespace
