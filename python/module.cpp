@@ -26,6 +26,7 @@
 #include "motions/scene/length_unit.h"
 #include "python/analyses.h"
 #include "python/frames_in_memory.h"
+#include "python/impacts.h"
 #include "python/paper_measures.h"
 #include "python/run_handle.h"
 #include "python/static_structures.h"
@@ -223,5 +224,6 @@ PYBIND11_MODULE(_kds, module) {
   module.def("trusted_hierarchy", kds::python::trusted_hierarchy);
   module.def("colliding_pairs", kds::python::colliding_pairs);
   module.def("closest_pair", kds::python::closest_pair_of);
+  module.def("impacts", kds::python::impacts);
   kds::python::bind_timing(module);
 }

@@ -13,6 +13,7 @@ from ._analyses import (Collisions, Comparison, Conditions, Contacts, Trade, Upd
                         contacts, generate, trade, update)
 from ._kds import AuditError, InputError
 from ._kds import version as _version
+from ._impacts import impacts
 from ._options import InputWarning
 from ._paper import closest_by_diagram, separating_family, trusted_hierarchy
 from ._run import Run, run, structure_names
@@ -26,7 +27,7 @@ __version__ = _version()
 __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "Contacts", "InputError", "InputWarning",
            "KineticAnalysis", "KineticRun", "Run", "StreamFrame", "Structure", "Trade", "Updates", "View", "closest_by_diagram",
            "closest_pair", "collide", "colliding_pairs", "compare", "conditions", "contacts", "enclosing_sphere", "generate",
-           "layered_hierarchy", "power_diagram", "run", "separating_family", "stream", "structure_names", "trade",
+           "impacts", "layered_hierarchy", "power_diagram", "run", "separating_family", "stream", "structure_names", "trade",
            "trusted_hierarchy", "update", "wrapped_hierarchy"]
 
 

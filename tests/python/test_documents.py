@@ -73,7 +73,8 @@ class Stubs(unittest.TestCase):
         """Compares a function of the stub, with its options, with the signature of the module."""
         found = list(inspect.signature(function).parameters.values())
         self.assertNotIn(inspect.Parameter.VAR_KEYWORD, [one.kind for one in found], name)
-        declared = [argument.arg for argument in node.args.args + node.args.kwonlyargs]
+        several = [node.args.vararg] if node.args.vararg else []
+        declared = [argument.arg for argument in [*node.args.args, *several, *node.args.kwonlyargs]]
         options = self.options(node.args.kwarg.annotation.slice.id) if node.args.kwarg else {}
         self.assertEqual([one.name for one in found][:len(node.args.args)], declared[:len(node.args.args)], name)
         self.assertEqual(sorted(one.name for one in found), sorted([*declared, *options]), name)

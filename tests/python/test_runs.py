@@ -1,7 +1,9 @@
 """Results of runs, compared with static structures, with NumPy and with the program."""
 
 import base64
+import csv
 import gc
+import gzip
 import html
 import itertools
 import json
@@ -565,6 +567,46 @@ class Driving(unittest.TestCase):
 
 
 @unittest.skipUnless("nearest" in kds.structure_names(), "the module is built without tests/python/nearest_structure.cpp")
+class Impacts(unittest.TestCase):
+    def queries(self, kind):
+        """Returns the public queries: points (queries, 2, 4, 3), and which features meet."""
+        points, answers = [], []
+        for path in sorted((DATA / "ccd").glob(f"*/{kind}/*")):
+            with gzip.open(path, "rt") if path.suffix == ".gz" else open(path) as file:
+                for row in csv.reader(file):
+                    numbers = [int(number) for number in row]
+                    points.append([numbers[k] / numbers[k + 1] for k in (0, 2, 4)])
+                    answers.append(numbers[6] == 1)
+        return np.reshape(points, (-1, 2, 4, 3)), np.array(answers[::8])
+
+    def test_they_answer_public_queries(self):
+        for kind in ("edge-edge", "vertex-face"):
+            points, answers = self.queries(kind)
+            first = kds.impacts(kind, points[:, 0], points[:, 1])
+            self.assertEqual(sorted(first["query"]), np.flatnonzero(answers).tolist())
+            every = kds.impacts(kind, points[:, 0], points[:, 1], all=True)
+            starts = np.unique(every["query"], return_index=True)[1]
+            np.testing.assert_array_equal(every[starts], first)
+
+    def test_curves_pass_twice(self):
+        rest = [[-1, 0, 0], [1, 0, 0]]
+        falls = [np.array([[*rest, [0, -1, z], [0, 1, z]]], float) for z in (1, -2, 1)]  # a parabola
+        times = kds.impacts("edge-edge", *falls, all=True)
+        np.testing.assert_allclose(0.5 * (times["lower"] + times["upper"]), [0.5 - 12**-0.5, 0.5 + 12**-0.5])
+        self.assertTrue(times["passes"].all())
+
+    def test_other_arrays_are_refused(self):
+        good = np.zeros((2, 4, 3))
+        for wrong, text in (((good,), "points: 1 arrays"), ((good, good[:1]), "points 1: has the shape"),
+                            ((good, good + np.nan), "points 1: has a number that is not finite in query 0"),
+                            ((good[0], good[0]), "points 0: has the shape"), ((good, "no"), "points 1")):
+            with self.assertRaisesRegex(kds.InputError, text):
+                kds.impacts("edge-edge", *wrong)
+        with self.assertRaisesRegex(kds.InputError, "kind: is 'edges'"):
+            kds.impacts("edges", good, good)
+        self.assertEqual(len(kds.impacts("edge-edge", good[:0], good[:0])), 0)
+
+
 class OwnStructure(unittest.TestCase):
     def test_it_is_one_of_the_structures(self):
         positions = coil(frames=8, beads=40)
