@@ -27,6 +27,7 @@ struct Work {
   std::size_t items = 0;      ///< processed by one call; 0 if only the time of a call is of interest
   std::string unit = "ns";    ///< of the time per item, such as "ns/bead"
   std::function<void()> run;  ///< timed by Google Benchmark
+  std::map<std::string, double> counters = {};  ///< ratios of counts, by the names of their rows
 };
 
 /// Work that prepares each call. The preparation is not timed.
@@ -34,7 +35,7 @@ struct TimedWork {
   std::size_t items = 0;
   std::string unit = "ns";
   std::function<double()> seconds;              ///< returns the seconds of one call without its preparation
-  std::map<std::string, double> counters = {};  ///< ratios of counts, by the names of their rows
+  std::map<std::string, double> counters = {};  ///< as of Work
 };
 
 /// Returns a function that calls `make` at its first call, keeps the result and returns a reference to it. So
@@ -64,10 +65,10 @@ void add(const std::string& name, const Make& make) {
     const auto& work = made();
     if constexpr (timed) {
       for ([[maybe_unused]] auto call : state) state.SetIterationTime(work.seconds());
-      for (const auto& [counter, value] : work.counters) state.counters[counter] = value;
     } else {
       for ([[maybe_unused]] auto call : state) work.run();
     }
+    for (const auto& [counter, value] : work.counters) state.counters[counter] = value;
     state.SetLabel(work.unit);
     if (work.items > 0) state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(work.items));
   };
@@ -95,6 +96,7 @@ void add_engine();
 void add_hierarchies();
 void add_power();
 void add_collision();
+void add_impacts();
 void add_readers();
 
 }  // namespace kds::bench

@@ -7,6 +7,7 @@
 #ifdef KDS_FCL
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/sphere.h>
+#include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 #endif
 #ifdef KDS_BULLET
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
@@ -113,5 +114,28 @@ std::span<const CollisionPeer> collision_peers() {
   };
   return peers;
 }
+
+#ifdef KDS_FCL
+const bool ContinuousPeer::available = true;
+
+bool ContinuousPeer::collides(std::span<const double> points) const {
+  using Intersect = fcl::detail::Intersect<double>;
+  const auto at = [&](std::size_t point, std::size_t end) {
+    const double* const p = &points[6 * point + 3 * end];
+    return fcl::Vector3<double>(p[0], p[1], p[2]);
+  };
+  double time = 0;
+  fcl::Vector3<double> place;
+  if (kind_ == ImpactKind::vertex_face)
+    return Intersect::intersect_VF(at(1, 0), at(2, 0), at(3, 0), at(0, 0), at(1, 1), at(2, 1), at(3, 1),
+                                   at(0, 1), &time, &place);
+  return Intersect::intersect_EE(at(0, 0), at(1, 0), at(2, 0), at(3, 0), at(0, 1), at(1, 1), at(2, 1),
+                                 at(3, 1), &time, &place);
+}
+#else
+const bool ContinuousPeer::available = false;
+
+bool ContinuousPeer::collides(std::span<const double>) const { return false; }
+#endif
 
 }  // namespace kds::bench

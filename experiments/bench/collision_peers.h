@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "structures/impacts/feature_pair.h"
 #include "structures/necklace/balls.h"
 
 namespace kds::bench {
@@ -26,5 +27,19 @@ struct CollisionPeer {
 };
 
 [[nodiscard]] std::span<const CollisionPeer> collision_peers();
+
+/// FCL's continuous collision of a point and a triangle, or of two edges, on straight paths. It is
+/// approximate.
+class ContinuousPeer {
+ public:
+  static const bool available;
+
+  explicit ContinuousPeer(ImpactKind kind) : kind_(kind) {}
+  /// Takes points as ImpactSearch does.
+  [[nodiscard]] bool collides(std::span<const double> points) const;
+
+ private:
+  ImpactKind kind_;
+};
 
 }  // namespace kds::bench

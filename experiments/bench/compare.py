@@ -49,7 +49,7 @@ class Measure:
         speed = rounds[0].get("items_per_second")
         self.items = round(speed * self.calls[0] / 1e9) if speed else None
         self.unit = rounds[0]["label"]
-        self.ratios = {key: value for key, value in rounds[0].items() if key.startswith("wrapped events")}
+        self.ratios = {key: value for key, value in rounds[0].items() if key.startswith(("wrapped events", "false answers"))}
 
     def time(self, choose=statistics.median, items=True):
         return choose(self.calls) / (self.items if items and self.items else 1)
@@ -76,7 +76,8 @@ def rows_of(measures):
             rows.append(row(name + ", a run", measure, *beside[0], items=False))
         else:
             rows += [row(name, measure, *one) for one in beside] or [row(name, measure, "", None)]
-        rows += [{"name": key, "value": value, "ratio": value} for key, value in measure.ratios.items()]
+        for one in (measure, *(other for _, other in beside)):
+            rows += [{"name": key, "value": value, "ratio": value} for key, value in one.ratios.items()]
         if name == "auto to rebuild":
             best = min([*[(other, m) for other, m in ours.items() if other != name], *beside],
                        key=lambda one: one[1].time())
@@ -97,7 +98,7 @@ def check(subject, one, goals):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("program")
-    parser.add_argument("subjects", nargs="*", help="certificates, engine, hierarchies, power, collision, readers")
+    parser.add_argument("subjects", nargs="*", help="certificates, engine, hierarchies, power, collision, impacts, readers")
     parser.add_argument("--only", default="", help="regular expression of SUBJECT/INPUT/N")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--min-time", type=float, default=0.1, help="least seconds of a round")

@@ -15,6 +15,7 @@ int main(int argc, char** argv) try {
   kds::bench::add_hierarchies();
   kds::bench::add_power();
   kds::bench::add_collision();
+  kds::bench::add_impacts();
   kds::bench::add_readers();
   benchmark::AddCustomContext("version", kds::program_version());
   benchmark::Initialize(&argc, argv);
