@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <numeric>
 #include <optional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/impacts/query_file.h"
@@ -69,6 +72,19 @@ struct Answers {
   std::string first_other;  ///< the first query that the file answers otherwise
 };
 
+/// Returns the time of all queries and its distribution.
+std::string times_text(std::vector<double> microseconds) {
+  if (microseconds.empty()) return "";
+  std::sort(microseconds.begin(), microseconds.end());
+  const auto quantile = [&](double share) {
+    return microseconds[static_cast<std::size_t>(share * static_cast<double>(microseconds.size() - 1))];
+  };
+  return fmt::format(
+      "seconds  {:.4g}; of a query in microseconds: median {:.2f}, 99% below {:.2f}, most {:.2f}\n",
+      1e-6 * std::accumulate(microseconds.begin(), microseconds.end(), 0.0), quantile(0.5), quantile(0.99),
+      quantile(1));
+}
+
 }  // namespace
 
 int ccd_command(const Arguments& arguments) {
@@ -88,14 +104,14 @@ int ccd_command(const Arguments& arguments) {
   AnswerLines lines(csv, files);
   ImpactSearch search(kind);
   Answers answers;
-  double seconds = 0;
+  std::vector<double> microseconds;
   for (const std::string& file : parsed.operands()) {
     QueryFile queries(file);
     ImpactQuery query;
     for (std::uint64_t in_file = 0; queries.next(query); ++in_file) {
       InterruptionCheck::ask();
       std::optional<Impact> first;
-      seconds += seconds_of<WallClock>([&] { first = search.first_impact(query.points); });
+      microseconds.push_back(1e6 * seconds_of<WallClock>([&] { first = search.first_impact(query.points); }));
       lines.add(answers.queries++, first);
       if (first) ++answers.collide;
       if (!query.answer) continue;
@@ -105,8 +121,8 @@ int ccd_command(const Arguments& arguments) {
     }
   }
   commit_together({&files});
-  std::string text = fmt::format("queries  {}\ncollide  {}\nseconds  {:.4g}\n",
-                                 with_thousands(answers.queries), with_thousands(answers.collide), seconds);
+  std::string text = fmt::format("queries  {}\ncollide  {}\n{}", with_thousands(answers.queries),
+                                 with_thousands(answers.collide), times_text(std::move(microseconds)));
   if (answers.known > 0)
     text += fmt::format("answers  {} known, {} otherwise\n", with_thousands(answers.known),
                         with_thousands(answers.others));
