@@ -118,7 +118,7 @@ class ContactsRun {
 
   /// Returns the crossings of bonds, after the run.
   [[nodiscard]] CrossingCounts crossings() {
-    return CrossingCounts(run_.whole().structures().back()->statistics.events_by_kind);
+    return {scene_, run_.whole().structures().back()->statistics.events_by_kind};
   }
 
   void run(const std::function<void(std::size_t frame)>& at_frame) {

@@ -16,9 +16,10 @@ struct CrossingCounts {
   std::uint64_t crosses = 0;  ///< bonds that pass through each other inside both
   std::uint64_t at_ends = 0;  ///< events of a bond whose end passes through another bond
   std::uint64_t touches = 0;
+  std::size_t bonds = 0;  ///< all bonds of the scene
 
-  /// Takes the counts of a run's structure (Crossings).
-  explicit CrossingCounts(const std::vector<std::uint64_t>& events_by_kind);
+  /// Takes the events of a run's structure (Crossings).
+  CrossingCounts(const Scene& scene, const std::vector<std::uint64_t>& events_by_kind);
 
   /// Returns a sentence without a full stop.
   [[nodiscard]] std::string sentence() const;
