@@ -7,6 +7,7 @@
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/certificate_type.h"
+#include "certificates/types/shifted_difference.h"
 
 namespace kds {
 
@@ -52,12 +53,8 @@ struct Closer {
 
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 8>& beads) {
-    auto lesser = view.difference(beads[1], beads[0]), greater = view.difference(beads[5], beads[4]);
-    const auto shift = view.difference(beads[2], beads[3]), other = view.difference(beads[6], beads[7]);
-    for (std::size_t axis = 0; axis < lesser.size(); ++axis) {
-      lesser[axis] += shift[axis];
-      greater[axis] += other[axis];
-    }
+    const auto lesser = shifted_difference(view, beads[1], beads[0], beads[2], beads[3]);
+    const auto greater = shifted_difference(view, beads[5], beads[4], beads[6], beads[7]);
     return dot(greater, greater) - dot(lesser, lesser);
   }
 };
@@ -102,18 +99,14 @@ struct ImageContact {
   int sign = 1;
 
   [[nodiscard]] Identity identity() const {
-    Identity identity = identity_of(type, std::array<BeadId, 2>{beads[0], beads[1]});
-    identity.beads[4] = beads[2];  // behind the first `no_bead`, where messages do not name it
-    return identity;
+    return identity_with_shift(type, std::array{beads[0], beads[1]}, beads[2], beads[3]);
   }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 4>& beads) {
-    auto d = view.difference(beads[1], beads[0]);
-    const auto shift = view.difference(beads[2], beads[3]);
-    for (std::size_t axis = 0; axis < d.size(); ++axis) d[axis] += shift[axis];
+    const auto d = shifted_difference(view, beads[1], beads[0], beads[2], beads[3]);
     const auto reach = view.radius_sum(beads[1], beads[0]);
     return dot(d, d) - reach * reach;
   }

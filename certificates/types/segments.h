@@ -3,8 +3,8 @@
 // are coplanar, whether the point is in the triangle, and whether the segments meet. Exact; degree 3k
 // (orientation) and 2k for centres of degree k.
 //
-// In a periodic cell, points of the second feature may be moved by a shift, given exactly as the difference
-// `to - from` of two points (shifted_beads.h). Without a shift, one bead takes the place of both.
+// In a periodic cell, points of the second feature may be moved by a shift (shifted_difference.h). Without a
+// shift, `to` and `from` are the same bead.
 
 #include <array>
 #include <cstddef>
@@ -12,21 +12,9 @@
 #include "certificates/base/certificate.h"
 #include "certificates/base/certificate_type.h"
 #include "certificates/base/determinant.h"
+#include "certificates/types/shifted_difference.h"
 
 namespace kds {
-
-namespace detail {
-
-/// Returns the vector from p to q, where q is moved by the shift.
-template <MotionView View>
-[[nodiscard]] auto shifted_difference(const View& view, BeadId q, BeadId p, BeadId to, BeadId from) {
-  auto difference = view.difference(q, p);
-  const auto shift = view.difference(to, from);
-  for (std::size_t axis = 0; axis < difference.size(); ++axis) difference[axis] += shift[axis];
-  return difference;
-}
-
-}  // namespace detail
 
 /// The orientation of a, b, c, d, where c and d are moved by the shift: (b - a) x (c - a) . (d - c). If it
 /// becomes positive while the segments ab and cd pass through each other, the linking number of two closed
@@ -37,13 +25,15 @@ struct SegmentsOrientation {
   std::array<BeadId, 6> beads{};  ///< a, b, c, d, to, from
   int sign = 1;
 
-  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
+  [[nodiscard]] Identity identity() const {
+    return identity_with_shift(type, std::array{beads[0], beads[1], beads[2], beads[3]}, beads[4], beads[5]);
+  }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 6>& b) {
-    return determinant(view.difference(b[1], b[0]), detail::shifted_difference(view, b[2], b[0], b[4], b[5]),
+    return determinant(view.difference(b[1], b[0]), shifted_difference(view, b[2], b[0], b[4], b[5]),
                        view.difference(b[3], b[2]));
   }
 };
@@ -58,7 +48,9 @@ struct CrossComponent {
   std::array<BeadId, 6> beads{};  ///< a, b, c, d, to, from; beads may occur twice
   int sign = 1;
 
-  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
+  [[nodiscard]] Identity identity() const {
+    return identity_with_shift(type, std::array{beads[0], beads[1], beads[2], beads[3]}, beads[4], beads[5]);
+  }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 
@@ -66,7 +58,7 @@ struct CrossComponent {
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 6>& b) {
     constexpr std::size_t next = (Axis + 1) % 3, last = (Axis + 2) % 3;
     const auto first = view.difference(b[1], b[0]);
-    const auto second = detail::shifted_difference(view, b[3], b[2], b[4], b[5]);
+    const auto second = shifted_difference(view, b[3], b[2], b[4], b[5]);
     return minor(first[next], first[last], second[next], second[last]);
   }
 };
@@ -79,14 +71,16 @@ struct BeyondEnds {
   std::array<BeadId, 5> beads{};  ///< a, b, p, to, from
   int sign = 1;
 
-  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
+  [[nodiscard]] Identity identity() const {
+    return identity_with_shift(type, std::array{beads[0], beads[1], beads[2]}, beads[3], beads[4]);
+  }
 
   [[nodiscard]] bool side() const { return sign > 0; }
 
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 5>& b) {
-    return dot(detail::shifted_difference(view, b[0], b[2], b[3], b[4]),
-               detail::shifted_difference(view, b[1], b[2], b[3], b[4]));
+    return dot(shifted_difference(view, b[0], b[2], b[3], b[4]),
+               shifted_difference(view, b[1], b[2], b[3], b[4]));
   }
 };
 
