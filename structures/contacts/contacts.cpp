@@ -128,13 +128,11 @@ void Contacts<D>::find_pairs(typename NearBalls<D>::Resting resting, bool list_o
 
 template <int D>
 int Contacts<D>::sign_of(const ImagePair& image, Moment moment, const Instant& time) {
-  const auto sign = [&](const auto& search, const auto& certificate) {
-    return moment == Moment::now
-               ? search.sign_now(simulator().kernel(), certificate, time, statistics.stages)
-               : search.sign_just_after(simulator().kernel(), certificate, time, statistics.stages);
-  };
-  return image.shift == 0 ? sign(disjoint_.search(), disjoint(image.pair))
-                          : sign(disjoint_images_.search(), image_contact(image, 1));
+  const Kernel kernel = simulator().kernel();
+  StageCounts& stages = statistics.stages;
+  if (image.shift == 0)
+    return kds::sign_of(disjoint_.search(), kernel, disjoint(image.pair), moment, time, stages);
+  return kds::sign_of(disjoint_images_.search(), kernel, image_contact(image, 1), moment, time, stages);
 }
 
 template <int D>

@@ -35,7 +35,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "certificates/search/certificate_search.h"
+#include "certificates/search/moment.h"
 #include "certificates/types/distances.h"
 #include "kds/certificate_table.h"
 #include "kds/structure_base.h"
@@ -206,7 +206,6 @@ class Contacts final : public EditableBase {
             sign};
   }
   /// Returns the sign of the distance of an image less its reach, at or just after the present time.
-  enum class Moment : std::uint8_t { now, just_after };
   [[nodiscard]] int sign_of(const ImagePair& image, Moment moment, const Instant& time);
   [[nodiscard]] bool is_zero_at_start(const Curves<Dimension>& curves, const ImagePair& image);
   void fail_at(std::uint32_t place, Kind kind);

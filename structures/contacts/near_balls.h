@@ -7,7 +7,6 @@
 #include "structures/images/near_images.h"
 #include "structures/images/shifted_beads.h"
 #include "structures/necklace/bead_pairs.h"
-#include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
 
@@ -21,31 +20,13 @@ class NearBalls {
   NearBalls(const PairsAsked& asked, int degree) : family_(asked, degree), images_(asked) {}
 
   [[nodiscard]] const PairsAsked& asked() const { return family_.asked(); }
-  /// Must be called before a first step, which has no step before it.
+  /// Must be called before the first step.
   void forget_rest() { family_.forget_rest(); }
-  /// Finds the pairs asked about for the step of these curves; call it once per step. New shifts get numbers.
+  /// Finds the pairs asked about for the step of these curves; call it once per step. Numbers new shifts in
+  /// `shifts`. Costs as much as MovingFamily::find_pairs or NearImages::find, and with the kernel `exact` as
+  /// much as listing all pairs.
   void find(const Curves<Dimension>& curves, Kernel kernel, Resting resting, bool list_overlapping,
-            ShiftNumbers<Dimension>& shifts, PairsOfImages& found) {
-    if (curves.cell() != nullptr) {
-      if (kernel == Kernel::exact) {
-        images_.find_by_boxes(curves, shifts, found);
-      } else {
-        images_.find(curves, list_overlapping, shifts, found);
-      }
-      return;
-    }
-    found.clear();
-    if (kernel == Kernel::exact) {
-      PairsInQuestion(family_.asked()).for_each([&](BeadId i, BeadId j) {
-        found.unclear.push_back({{i, j}});
-      });
-      return;
-    }
-    family_.find_pairs(curves, resting, list_overlapping, of_blocks_);
-    for (const BeadPair& pair : of_blocks_.unclear) found.unclear.push_back({pair});
-    for (const BeadPair& pair : of_blocks_.overlapping) found.overlapping.push_back({pair});
-    found.proved = family_.size() + of_blocks_.proved_apart;
-  }
+            ShiftNumbers<Dimension>& shifts, PairsOfImages& found);
 
  private:
   MovingFamily<Dimension> family_;

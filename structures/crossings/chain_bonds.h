@@ -1,9 +1,10 @@
 #pragma once
 // The bonds of a scene's chains, and the balls around them: two bonds can meet only while their balls meet.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <utility>
 #include <vector>
 
 #include "motions/curves/motion_ref.h"
@@ -14,30 +15,26 @@ namespace kds {
 
 /// Bonds are numbered along the chains.
 struct ChainBonds {
-  std::vector<BeadId> first;  ///< the first bead of each bond; the second is the bead after it
-  PairsAsked pairs;           ///< pairs of bonds that share no bead and of which one moves
+  std::vector<BeadId> first_beads;  ///< of each bond, ascending; the second bead follows the first
+  PairsAsked pairs;                 ///< pairs of bonds that share no bead and of which one moves
 
-  explicit ChainBonds(const Scene& scene) : ChainBonds(scene.bonds()) {
-    if (scene.at_rest().empty() || first.empty()) return;
-    const PairsAsked beads{scene.necklaces()};
-    for (const BeadRange& run : pairs.necklaces)
-      pairs.at_rest.push_back(scene.at_rest()[beads.necklace_of(first[run.first])]);
-  }
-  /// `first_beads` are ascending.
-  explicit ChainBonds(std::vector<BeadId> first_beads) : first(std::move(first_beads)) {
+  explicit ChainBonds(const Scene& scene) : first_beads(scene.bonds()) {
     // Bonds that follow each other share a bead, so a run of them is like a necklace of bonds.
-    for (BeadId bond = 0; bond < first.size(); ++bond) {
-      if (bond > 0 && first[bond] == first[bond - 1] + 1) {
+    const PairsAsked beads{scene.necklaces()};
+    for (BeadId bond = 0; bond < first_beads.size(); ++bond) {
+      const BeadId bead = first_beads[bond];
+      if (bond > 0 && bead == first_beads[bond - 1] + 1) {
         pairs.necklaces.back().last = bond;
-      } else {
-        pairs.necklaces.push_back({bond, bond});
+        continue;
       }
+      pairs.necklaces.push_back({bond, bond});
+      if (!scene.at_rest().empty()) pairs.at_rest.push_back(scene.at_rest()[beads.necklace_of(bead)]);
     }
   }
 };
 
-/// Balls around the bonds of another motion, which must outlive it: a ball moves with its bond's midpoint and
-/// always contains the bond, whatever is rounded.
+/// Balls around the bonds of another motion, which must outlive it. A ball moves with its bond's midpoint and
+/// contains the bond at all times; radii are rounded up.
 class BondBalls {
  public:
   static constexpr int dimension = 3;

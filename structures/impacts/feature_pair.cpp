@@ -31,32 +31,15 @@ struct Root {
   bool changes_sign = false;
 };
 
-/// The edges of a feature, each with a point of the other feature that may meet it.
-struct EdgeAndPoint {
-  unsigned a, b, point;
-};
-constexpr std::array<EdgeAndPoint, 3> edges_of_face{{{1, 2, 0}, {2, 3, 0}, {3, 1, 0}}};
-constexpr std::array<EdgeAndPoint, 4> ends_of_edges{{{0, 1, 2}, {0, 1, 3}, {2, 3, 0}, {2, 3, 1}}};
-
-std::span<const EdgeAndPoint> edges_and_points(ImpactKind kind) {
-  if (kind == ImpactKind::vertex_face) return edges_of_face;
-  return ends_of_edges;
-}
-
-/// Returns the shift of one point relative to another.
-std::array<BeadId, 2> shift_between(const FeaturePair& pair, unsigned to, unsigned from) {
-  const unsigned second = pair.kind == ImpactKind::vertex_face ? 1 : 2;  // its first point
-  const bool to_moves = to >= second, from_moves = from >= second;
-  if (to_moves == from_moves) return {pair.shift[0], pair.shift[0]};
-  return to_moves ? pair.shift : std::array{pair.shift[1], pair.shift[0]};
-}
+constexpr std::array<FeaturePair::EdgeAndPoint, 3> of_face{{{1, 2, 0}, {2, 3, 0}, {3, 1, 0}}};
+constexpr std::array<FeaturePair::EdgeAndPoint, 4> of_edges{{{0, 1, 2}, {0, 1, 3}, {2, 3, 0}, {2, 3, 1}}};
 
 }  // namespace
 
-struct FeaturePairTest::Candidate {
-  Root root;
-  ExactTime exact;
-};
+std::span<const FeaturePair::EdgeAndPoint> FeaturePair::edges_and_points() const {
+  if (kind == ImpactKind::vertex_face) return of_face;
+  return of_edges;
+}
 
 FeaturePairTest::FeaturePairTest(const MotionRef<3>& motion, Kernel kernel, StageCounts& stages)
     : kernel_(kernel),
@@ -68,26 +51,10 @@ FeaturePairTest::FeaturePairTest(const MotionRef<3>& motion, Kernel kernel, Stag
       beyond_(search_over<BeyondEnds>(motion)) {}
 
 void FeaturePairTest::each_impact(const FeaturePair& pair, const Found& found) const {
-  const bool is_planar = !each_root(*orientation_, pair.orientation(1), [&](const Root& root) {
+  const bool is_planar = !each_root(*orientation_, pair.orientation(), [&](const Root& root) {
     return !meet(pair, root.time) || found(root.time, root.changes_sign);
   });
-  if (!is_planar) return;
-  const auto candidates = candidates_in_plane(pair);
-  bool before = false;  // whether they meet just before the candidate
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    const bool now = meet(pair, candidates[k]->root.time);
-    if (now && !before && !found(candidates[k]->root.time, false)) return;
-    if (k + 1 < candidates.size()) before = meet_between(pair, *candidates[k], *candidates[k + 1]);
-  }
-}
-
-bool FeaturePairTest::meet_throughout(const FeaturePair& pair) const {
-  const auto candidates = candidates_in_plane(pair);
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    if (!meet(pair, candidates[k]->root.time)) return false;
-    if (k + 1 < candidates.size() && !meet_between(pair, *candidates[k], *candidates[k + 1])) return false;
-  }
-  return true;
+  if (is_planar) each_impact_in_plane(pair, found);
 }
 
 template <class Certificate, class Visit>
@@ -119,8 +86,12 @@ bool FeaturePairTest::each_root(const CertificateSearch<Certificate>& search, Ce
   return true;
 }
 
-std::vector<std::unique_ptr<FeaturePairTest::Candidate>> FeaturePairTest::candidates_in_plane(
-    const FeaturePair& pair) const {
+// Between two of the roots, the answer does not change.
+void FeaturePairTest::each_impact_in_plane(const FeaturePair& pair, const Found& found) const {
+  struct Candidate {
+    Root root;
+    ExactTime exact;
+  };
   std::vector<std::unique_ptr<Candidate>> candidates;  // comparing narrows them
   const auto add = [&](Root root) {
     ExactTime exact = *root.time.exact_apart();
@@ -128,78 +99,72 @@ std::vector<std::unique_ptr<FeaturePairTest::Candidate>> FeaturePairTest::candid
     return true;
   };
   add({nullptr, Instant(0.0)});
-  for (const auto& [a, b, point] : edges_and_points(pair.kind)) {
-    (void)each_root(*cross_x_, component<0>(pair, {a, b, a, point}), add);
-    (void)each_root(*cross_y_, component<1>(pair, {a, b, a, point}), add);
-    (void)each_root(*cross_z_, component<2>(pair, {a, b, a, point}), add);
-    (void)each_root(*beyond_, beyond(pair, a, b, point), add);
+  for (const FeaturePair::EdgeAndPoint& of : pair.edges_and_points()) {
+    const std::array side{of.a, of.b, of.a, of.point};
+    (void)each_root(*cross_x_, pair.cross<0>(side), add);
+    (void)each_root(*cross_y_, pair.cross<1>(side), add);
+    (void)each_root(*cross_z_, pair.cross<2>(side), add);
+    (void)each_root(*beyond_, pair.beyond(of), add);
   }
-  add({nullptr, Instant(1.0)});
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return ExactTime::compare(a->exact, b->exact) < 0; });
-  return candidates;
+  bool before = false;  // whether they meet just before the candidate
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Instant& time = candidates[k]->root.time;
+    const bool now = meet(pair, time);
+    if (now && !before && !found(time, false)) return;
+    const bool is_last = k + 1 == candidates.size();
+    before = is_last || ExactTime::compare(candidates[k]->exact, candidates[k + 1]->exact) < 0
+                 ? meet(pair, time, Moment::just_after)
+                 : now;
+  }
 }
 
-bool FeaturePairTest::meet_between(const FeaturePair& pair, Candidate& one, Candidate& next) const {
-  if (ExactTime::compare(one.exact, next.exact) == 0) return meet(pair, one.root.time);
-  return meet(pair, Instant(dyadic_between(one.exact, next.exact)));
+int FeaturePairTest::cross(int axis, const FeaturePair& pair, std::array<unsigned, 4> indices,
+                           const Instant& time, Moment moment) const {
+  if (axis == 0) return sign_of(*cross_x_, kernel_, pair.cross<0>(indices), moment, time, stages_);
+  if (axis == 1) return sign_of(*cross_y_, kernel_, pair.cross<1>(indices), moment, time, stages_);
+  return sign_of(*cross_z_, kernel_, pair.cross<2>(indices), moment, time, stages_);
 }
 
-template <int Axis>
-CrossComponent<Axis> FeaturePairTest::component(const FeaturePair& pair, std::array<unsigned, 4> points) {
-  const auto [a, b, c, d] = points;
-  const auto [to, from] = shift_between(pair, d, c);
-  return {{pair.points[a], pair.points[b], pair.points[c], pair.points[d], to, from}};
-}
-
-BeyondEnds FeaturePairTest::beyond(const FeaturePair& pair, unsigned a, unsigned b, unsigned point) {
-  const auto [to, from] = shift_between(pair, a, point);
-  return {{pair.points[a], pair.points[b], pair.points[point], to, from}};
-}
-
-int FeaturePairTest::cross(int axis, const FeaturePair& pair, std::array<unsigned, 4> points,
-                           const Instant& time) const {
-  if (axis == 0) return cross_x_->sign_now(kernel_, component<0>(pair, points), time, stages_);
-  if (axis == 1) return cross_y_->sign_now(kernel_, component<1>(pair, points), time, stages_);
-  return cross_z_->sign_now(kernel_, component<2>(pair, points), time, stages_);
-}
-
-bool FeaturePairTest::is_on_segment(const FeaturePair& pair, unsigned a, unsigned b, unsigned point,
-                                    const Instant& time) const {
+bool FeaturePairTest::is_on_segment(const FeaturePair& pair, const FeaturePair::EdgeAndPoint& end,
+                                    const Instant& time, Moment moment) const {
   for (int axis = 0; axis < 3; ++axis)
-    if (side(axis, pair, a, b, point, time) != 0) return false;
-  return beyond_->sign_now(kernel_, beyond(pair, a, b, point), time, stages_) <= 0;
+    if (side(axis, pair, end, time, moment) != 0) return false;
+  return sign_of(*beyond_, kernel_, pair.beyond(end), moment, time, stages_) <= 0;
 }
 
-bool FeaturePairTest::meet(const FeaturePair& pair, const Instant& time) const {
-  return pair.kind == ImpactKind::vertex_face ? is_in_triangle(pair, time) : edges_meet(pair, time);
+bool FeaturePairTest::meet(const FeaturePair& pair, const Instant& time, Moment moment) const {
+  return pair.kind == ImpactKind::vertex_face ? is_in_triangle(pair, time, moment)
+                                              : edges_meet(pair, time, moment);
 }
 
-bool FeaturePairTest::meet_at_end(const FeaturePair& pair, const Instant& time) const {
-  const auto pairs = edges_and_points(pair.kind);
-  return std::any_of(pairs.begin(), pairs.end(), [&](const EdgeAndPoint& end) {
-    return is_on_segment(pair, end.a, end.b, end.point, time);
+bool FeaturePairTest::meet_at_end(const FeaturePair& pair, const Instant& time, Moment moment) const {
+  const auto ends = pair.edges_and_points();
+  return std::any_of(ends.begin(), ends.end(), [&](const FeaturePair::EdgeAndPoint& end) {
+    return is_on_segment(pair, end, time, moment);
   });
 }
 
-bool FeaturePairTest::is_in_triangle(const FeaturePair& pair, const Instant& time) const {
+bool FeaturePairTest::is_in_triangle(const FeaturePair& pair, const Instant& time, Moment moment) const {
   for (int axis = 0; axis < 3; ++axis) {
-    const int turn = side(axis, pair, 1, 2, 3, time);
+    const int turn = side(axis, pair, {1, 2, 3}, time, moment);
     if (turn == 0) continue;
-    return std::all_of(edges_of_face.begin(), edges_of_face.end(), [&](const EdgeAndPoint& edge) {
-      return turn * side(axis, pair, edge.a, edge.b, edge.point, time) >= 0;
+    return std::all_of(of_face.begin(), of_face.end(), [&](const FeaturePair::EdgeAndPoint& edge) {
+      return turn * side(axis, pair, edge, time, moment) >= 0;
     });
   }
-  return meet_at_end(pair, time);
+  return meet_at_end(pair, time, moment);
 }
 
-bool FeaturePairTest::edges_meet(const FeaturePair& pair, const Instant& time) const {
+bool FeaturePairTest::edges_meet(const FeaturePair& pair, const Instant& time, Moment moment) const {
+  const auto& [first_by_c, first_by_d, second_by_a, second_by_b] = of_edges;
   for (int axis = 0; axis < 3; ++axis) {
-    if (cross(axis, pair, {0, 1, 2, 3}, time) == 0) continue;
-    return side(axis, pair, 0, 1, 2, time) * side(axis, pair, 0, 1, 3, time) <= 0 &&
-           side(axis, pair, 2, 3, 0, time) * side(axis, pair, 2, 3, 1, time) <= 0;
+    if (cross(axis, pair, {0, 1, 2, 3}, time, moment) == 0) continue;
+    const auto of = [&](const FeaturePair::EdgeAndPoint& end) { return side(axis, pair, end, time, moment); };
+    return of(first_by_c) * of(first_by_d) <= 0 && of(second_by_a) * of(second_by_b) <= 0;
   }
-  return meet_at_end(pair, time);
+  return meet_at_end(pair, time, moment);
 }
 
 }  // namespace kds

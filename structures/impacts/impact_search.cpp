@@ -15,7 +15,6 @@ namespace kds {
 namespace {
 
 constexpr std::size_t four = 4;
-constexpr int highest_degree_of_impacts = 20;  // the orientation's degree is three times as high
 
 Impact impact_at(const Instant& time, bool passes) {
   if (time.upper() - time.lower() > 0x1p-44 * time.upper()) {
@@ -86,9 +85,9 @@ bool ImpactSearch::Work::are_apart() const {
 }
 
 ImpactSearch::ImpactSearch(ImpactKind kind, int degree) {
-  if (degree < 1 || degree > highest_degree_of_impacts)
+  if (degree < 1 || degree > highest_degree)
     throw std::invalid_argument(
-        fmt::format("impacts of degree {}: expected 1 to {}", degree, highest_degree_of_impacts));
+        fmt::format("impacts of degree {}: expected 1 to {}", degree, highest_degree));
   work_ = std::make_unique<Work>(kind, degree);
 }
 

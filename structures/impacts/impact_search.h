@@ -26,7 +26,10 @@ struct Impact {
 /// Searches queries of one kind and degree, one after the other. May be used by one thread at a time.
 class ImpactSearch {
  public:
-  /// Throws std::invalid_argument if the degree is not from 1 to 20.
+  /// The orientation's degree is three times as high.
+  static constexpr int highest_degree = 20;
+
+  /// Throws std::invalid_argument if the degree is not from 1 to highest_degree.
   explicit ImpactSearch(ImpactKind kind, int degree = 1);
   ImpactSearch(const ImpactSearch&) = delete;
   ImpactSearch& operator=(const ImpactSearch&) = delete;

@@ -23,10 +23,10 @@ class CrossingsInRun final : public RunningStructure {
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {}; }
   [[nodiscard]] bool can_be_cut() const override { return true; }
   [[nodiscard]] std::optional<std::vector<BeadId>> state() const override { return crossings_.state(); }
-  /// Times the search for bonds that are near each other, because no crossing shows at a frame.
+  /// Times a cell list over balls around the bonds, because a frame alone shows no crossing.
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     const Eigen::Matrix3Xd beads = scene_.centers(frame);
-    const std::vector<BeadId>& bonds = crossings_.bonds().first;
+    const std::vector<BeadId>& bonds = crossings_.bonds().first_beads;
     Eigen::Matrix3Xd middles(3, static_cast<Eigen::Index>(bonds.size()));
     std::vector<double> radii;
     for (std::size_t bond = 0; bond < bonds.size(); ++bond) {
@@ -47,26 +47,24 @@ class CrossingsInRun final : public RunningStructure {
 }  // namespace
 
 void add_bond_structures(StructureRegistry& registry) {
-  registry.add({.name = "crossings",
-                .about = "bonds of chains that pass through each other",
-                .order = 45,
-                .refusal = [](const Scene& scene) -> std::optional<std::string> {
-                  if (scene.is_lifted())
-                    return "needs straight paths or curves, and points of a lifted motion have none";
-                  if (scene.dimension() < 3)
-                    return "is about bonds in space, and this input has " +
-                           std::to_string(scene.dimension()) + " coordinates";
-                  if (scene.bonds().empty())
-                    return "is about bonds of consecutive beads, and this input has no chains; expected a "
-                           "selection such as "
-                           "CA or backbone";
-                  return std::nullopt;
-                },
-                .across_walls = "crossings",
-                .make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
-                           const StructureSettings&) -> std::unique_ptr<RunningStructure> {
-                  return std::make_unique<CrossingsInRun>(simulator, scene, std::get<MotionRef<3>>(motion));
-                }});
+  registry.add(
+      {.name = "crossings",
+       .about = "bonds of chains that pass through each other",
+       .order = 45,
+       .refusal = [](const Scene& scene) -> std::optional<std::string> {
+         if (scene.is_lifted()) return "does not take lifted motion; expected linear or hermite";
+         if (scene.dimension() < 3)
+           return "is about bonds in space, and all beads of this input stay in one plane or on a line";
+         if (scene.bonds().empty())
+           return "is about bonds of consecutive beads, and no beads of this input are known to be "
+                  "bonded; expected chains, or a selection such as CA or backbone";
+         return std::nullopt;
+       },
+       .across_walls = "crossings",
+       .make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
+                  const StructureSettings&) -> std::unique_ptr<RunningStructure> {
+         return std::make_unique<CrossingsInRun>(simulator, scene, std::get<MotionRef<3>>(motion));
+       }});
 }
 
 }  // namespace kds

@@ -139,7 +139,7 @@ struct StructureSpec {
   std::string about = {};        ///< what is maintained, for `kds help structures`
   std::string net_changes = {};  ///< what its elements are, if it has any
   /// Determines the order of structures, both in acting at one time and in reports: ascending, then by name.
-  /// The framework's own structures have 10 to 40.
+  /// The framework's own structures have 10 to 45.
   int order = 100;
   /// Returns whether a run of this scene contains the structure if no structures are chosen.
   std::function<bool(const Scene&)> by_default = [](const Scene&) { return false; };
@@ -147,8 +147,8 @@ struct StructureSpec {
   std::function<std::optional<std::string>(const Scene&)> refusal = [](const Scene&) {
     return std::optional<std::string>();
   };
-  /// What the structure finds across the walls of a periodic cell, for a message if the input's cells do not
-  /// serve. Empty if images make no difference to it, or if it lacks them.
+  /// Plural noun for messages, such as "contacts": what images across cell walls add to the structure. Empty
+  /// if the structure ignores images.
   std::string across_walls = {};
   /// Whether the structure is about near beads, but takes no images of them in a periodic cell.
   bool lacks_images = false;

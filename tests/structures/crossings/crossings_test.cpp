@@ -9,10 +9,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <stdexcept>
 #include <tuple>
 #include <vector>
 
+#include "motions/curves/bezier_motion.h"
+#include "motions/curves/positions.h"
 #include "structures/session/kinetic_run.h"
 #include "structures/session/parallel_run.h"
 #include "tests/support/inputs/random.h"
@@ -27,7 +31,7 @@ using namespace test;
 using testing::IsEmpty;
 
 Scene scene_of(const WholeFrames& frames, const std::vector<std::size_t>& chains,
-               const Cell* cell = nullptr) {
+               const std::vector<Cell>& cells = {}) {
   std::vector<Trajectory> necklaces;
   BeadId first = 0;
   for (const std::size_t beads : chains) {
@@ -37,8 +41,8 @@ Scene scene_of(const WholeFrames& frames, const std::vector<std::size_t>& chains
       for (std::size_t b = 0; b < beads; ++b)
         for (std::size_t axis = 0; axis < 3; ++axis)
           centers(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(b)) = frame[first + b][axis];
-      if (cell != nullptr) necklace.cells.push_back(*cell);
     }
+    necklace.cells = cells;
     first += static_cast<BeadId>(beads);
   }
   return {necklaces, std::vector<double>(first, 1)};
@@ -51,6 +55,15 @@ std::vector<Event> events_of(const Scene& scene, Kernel kernel = Kernel::filtere
   run.listen(log);
   run.run();
   return log.events;
+}
+
+void expect_same(const std::vector<Event>& some, const std::vector<Event>& others) {
+  ASSERT_EQ(some.size(), others.size());
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    EXPECT_EQ(some[k].step, others[k].step);
+    EXPECT_EQ(some[k].change, others[k].change);
+    EXPECT_EQ(some[k].lower, others[k].lower);
+  }
 }
 
 std::vector<JudgedCrossing> judged(const WholeFrames& frames, const Scene& scene) {
@@ -181,7 +194,9 @@ TEST(Crossings, InACell) {
   std::size_t count = 0;
   for (int round = 0; round < rounds(100, 20); ++round) {
     SCOPED_TRACE(round);
-    if (round % 2 == 1) cell(0, 1) = 4;  // triclinic
+    cell(0, 1) = round % 2 == 1 ? 4 : 0;  // triclinic
+    std::vector<Cell> cells(3, cell);
+    if (round % 3 == 2) cells[1](0, 1) += 1, cells[1](2, 2) -= 1;
     WholeFrames frames(3);
     std::vector<std::array<int, 3>> at(6);
     for (std::size_t b = 0; b < at.size(); ++b)
@@ -194,7 +209,7 @@ TEST(Crossings, InACell) {
       for (auto& point : at)
         for (int& x : point) x += pick(random, -2, 2);
     }
-    const Scene periodic = scene_of(frames, {3, 3}, &cell);
+    const Scene periodic = scene_of(frames, {3, 3}, cells);
     ASSERT_TRUE(periodic.is_periodic());
     WholeFrames copied(frames.size());
     std::vector<std::size_t> chains;
@@ -204,10 +219,11 @@ TEST(Crossings, InACell) {
           for (std::size_t f = 0; f < frames.size(); ++f)
             for (const auto& [x, y, z] : frames[f])
               copied[f].push_back(
-                  {x + size * i + static_cast<int>(cell(0, 1)) * j, y + size * j, z + size * k});
+                  {x + static_cast<int>(cells[f](0, 0)) * i + static_cast<int>(cells[f](0, 1)) * j,
+                   y + size * j, z + static_cast<int>(cells[f](2, 2)) * k});
           chains.insert(chains.end(), {3, 3});
         }
-    // Of events between two copies, those with the middle copy of the chain with the lower beads.
+    // Keeps the events in which the chain with the lower beads is in the middle copy.
     constexpr BeadId middle = 6 * (7 * 7 * 7 / 2);
     std::vector<std::tuple<std::size_t, double, int, std::array<BeadId, 4>>> right, found;
     for (const Event& e : events_of(scene_of(copied, chains))) {
@@ -235,8 +251,7 @@ TEST(Crossings, InACell) {
 }
 
 /// Returns half of the sum of the signs of crossings of two closed strands, seen along a direction in which
-/// no two points coincide. With one strand, twice the sum over its pairs of bonds would be its directional
-/// writhe.
+/// no two points coincide.
 int linking_number(const std::vector<Eigen::Vector3d>& one, const std::vector<Eigen::Vector3d>& other) {
   const Eigen::Vector3d view = Eigen::Vector3d(0.3, 0.2, 1).normalized();
   const Eigen::Vector3d x = view.unitOrthogonal(), y = view.cross(x);
@@ -337,21 +352,109 @@ TEST(Crossings, ChangeTheLinkingNumberAndTheWrithe) {
   EXPECT_GT(self_crossings, 20);
 }
 
+std::vector<Event> in_parts(const Scene& scene, std::size_t threads, std::size_t steps) {
+  EventLog log;
+  ParallelRun run(scene, {{"crossings"}}, {.threads = threads, .steps_per_part = steps});
+  run.listen(log);
+  run.run([](std::size_t) {});
+  return log.events;
+}
+
 TEST(Crossings, OnSeveralThreads) {
-  const std::vector<Trajectory> two = rings(7, 60);
-  const Scene scene(two, std::vector<double>(26, 0.1));
+  const Scene scene(rings(7, 60), std::vector<double>(26, 0.1));
   const std::vector<Event> right = events_of(scene);
-  for (const std::size_t threads : {2U, 3U}) {
-    EventLog log;
-    ParallelRun run(scene, {{"crossings"}}, {.threads = threads, .steps_per_part = 7});
-    run.listen(log);
-    run.run([](std::size_t) {});
-    ASSERT_EQ(log.events.size(), right.size());
-    for (std::size_t k = 0; k < right.size(); ++k) {
-      EXPECT_EQ(log.events[k].change, right[k].change);
-      EXPECT_EQ(log.events[k].lower, right[k].lower);
+  ASSERT_GT(right.size(), 100U);
+  for (const std::size_t threads : {2U, 3U}) expect_same(in_parts(scene, threads, 7), right);
+}
+
+// Bonds meet at frames where the run is cut, in space and in a cell.
+TEST(Crossings, OnSeveralThreadsWhereBondsMeet) {
+  for (const std::vector<Cell>& cells : {std::vector<Cell>(), std::vector<Cell>(7, 8 * Cell::Identity())}) {
+    WholeFrames frames = falls({1, 0, 0, -1, 0, 1, 0});
+    for (auto& frame : frames)
+      for (const std::size_t bead : {2U, 3U})
+        if (!cells.empty()) frame[bead][2] += 8;  // an image crosses
+    const Scene scene = scene_of(frames, {2, 2}, cells);
+    const std::vector<Event> right = events_of(scene);
+    ASSERT_THAT(right, testing::SizeIs(2));
+    for (const std::size_t threads : {2U, 3U}) expect_same(in_parts(scene, threads, 1), right);
+  }
+}
+
+TEST(Crossings, ThroughAnObstacle) {
+  std::vector<Trajectory> two(2);
+  two[0].frames = {Eigen::Matrix3Xd::Zero(3, 2)};
+  two[0].frames[0].row(0) << -2, 2;
+  for (const double z : {1, -1}) {
+    Eigen::Matrix3Xd& frame = two[1].frames.emplace_back(3, 2);
+    frame << 0, 0, -2, 2, z, z;
+  }
+  const Scene scene(two, std::vector<double>(4, 1));
+  ASSERT_FALSE(scene.at_rest().empty());
+  EXPECT_THAT(events_of(scene), testing::SizeIs(1));
+}
+
+// Counts changes of sign at many times of the step.
+TEST(Crossings, OnCurves) {
+  const std::vector<Trajectory> two = rings(11, 6);
+  const Scene scene(two, std::vector<double>(26, 0.1), FrameMotion::hermite);
+  ASSERT_EQ(scene.degree(), 3);
+  AnyDegreeMotion<3> motion(26, 3);
+  std::size_t sampled = 0;
+  for (std::size_t step = 0; step < scene.step_count(); ++step) {
+    scene.load(step, motion);
+    const Curves<3> curves(motion);
+    std::map<std::array<BeadId, 4>, std::pair<double, bool>> before;
+    for (int k = 0; k <= 8000; ++k) {
+      const Eigen::Matrix3Xd at = approximate_positions(curves, k / 8000.0);
+      for (const BeadId a : scene.bonds())
+        for (const BeadId b : scene.bonds()) {
+          if (b < a + 2) continue;
+          const Eigen::Vector3d p = at.col(a), q = at.col(a + 1), r = at.col(b), s = at.col(b + 1);
+          const double volume = (q - p).cross(r - p).dot(s - p);
+          const auto sides = [](const Eigen::Vector3d& n, const Eigen::Vector3d& x, const Eigen::Vector3d& y,
+                                const Eigen::Vector3d& z, const Eigen::Vector3d& w) {
+            return n.dot((y - x).cross(z - x)) * n.dot((y - x).cross(w - x)) < 0;
+          };
+          const Eigen::Vector3d normal = (q - p).cross(s - r);
+          const bool meets = sides(normal, p, q, r, s) && sides(normal, r, s, p, q);
+          const auto [found, is_new] = before.try_emplace({a, a + 1, b, b + 1}, volume, meets);
+          if (!is_new && (found->second.first > 0) != (volume > 0) && meets && found->second.second)
+            ++sampled;
+          found->second = {volume, meets};
+        }
     }
   }
+  EXPECT_EQ(events_of(scene).size(), sampled);
+  EXPECT_GT(sampled, 10U);
+}
+
+// Straight chains on a lattice, of which one is pushed through the other: all its bonds are coplanar with
+// those of the other chain.
+TEST(Crossings, OfCoplanarBondsAreTouches) {
+  WholeFrames frames;
+  for (const int y : {3, -3}) {
+    auto& frame = frames.emplace_back();
+    for (int x = 0; x < 4; ++x) frame.push_back({x, 0, 0});
+    for (int x = 0; x < 4; ++x) frame.push_back({x, y, 0});
+    frame.push_back({0, 0, 9});
+  }
+  std::map<int, int> kinds;
+  for (const Event& event : events_of(scene_of(frames, {4, 4, 1}))) ++kinds[event.change.kind];
+  EXPECT_THAT(kinds, testing::ElementsAre(
+                         testing::Pair(int{Crossings::touch}, 7)));  // 3 pairs overlap, 4 touch at ends
+}
+
+TEST(Crossings, RefuseOtherChanges) {
+  const Scene scene = scene_of(falls({1, -1}), {2, 2});
+  KineticRun run(scene, {{"crossings"}});
+  run.build();
+  auto& crossings = run.structure<Crossings>(0);
+  EXPECT_NO_THROW(crossings.apply({Crossings::touch, 4, {0, 1, 2, 3}}));
+  for (const Change& wrong :
+       {Change{Crossings::touch, 3, {0, 1, 2}}, Change{Crossings::touch, 4, {0, 1, 1, 2}},
+        Change{Crossings::touch, 4, {2, 3, 0, 1}}, Change{Crossings::touch, 4, {0, 1, 2, 4}}})
+    EXPECT_THROW(crossings.apply(wrong), std::invalid_argument);
 }
 
 TEST(Crossings, LeaveOutChainBreaks) {

@@ -91,7 +91,7 @@ std::vector<int> random_points(Random& random, int degree, Made made) {
 
 void try_random(ImpactKind kind, int degree, int count) {
   count *= static_cast<int>(from_environment("KDS_IMPACT_ROUNDS", 1));  // multiplies the number of queries
-  Random random(static_cast<unsigned>(530 + degree));
+  Random random(from_environment("KDS_IMPACT_SEED", 530) + static_cast<unsigned>(degree));
   for (int round = 0; round < rounds(count, 10); ++round) {
     for (const Made made : {Made::anywhere, Made::on_plane, Made::on_moving_plane, Made::on_line,
                             Made::shared_points, Made::at_rest}) {

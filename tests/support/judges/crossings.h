@@ -1,6 +1,6 @@
 #pragma once
 // Judges which bonds of chains pass through each other between frames of whole coordinates, by the impacts of
-// all pairs of bonds (impacts.h). Uses nothing of certificates/ or structures/crossings.
+// all pairs of bonds (impacts.h). Shares only Crossings::Kind with the structure.
 
 #include <array>
 #include <cstddef>
@@ -33,8 +33,16 @@ inline void judge_bonds(const WholeFrames& frames, BeadId a, BeadId b, std::vect
     const ImpactJudge judge(ImpactKind::edge_edge, 1, points);
     const sturm::Polynomial orientation = judge.orientation();
     const JudgedTime start = ImpactJudge::number(0);
-    if (orientation.empty()) {
-      if (!judge.meet(start) || !judge.meet_throughout()) before = 0;
+    if (orientation.empty()) {  // contact that ends in the plane is a touch
+      const std::vector<JudgedTime> times = judge.critical_in_plane();
+      if (!judge.meet(start)) before = 0;
+      for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+        if (ImpactJudge::are_equal(times[k], times[k + 1])) continue;
+        if (!judge.meet(times[k]) || judge.meet(ImpactJudge::between(times[k], times[k + 1]))) continue;
+        if (step > 0 || !ImpactJudge::are_equal(times[k], start))
+          events.push_back({step, times[k], Crossings::touch, beads});
+        before = 0;
+      }
       continue;
     }
     std::vector<JudgedTime> times;

@@ -81,16 +81,15 @@ class ImpactJudge {
       if (is_on_segment(a, b, point, at)) return true;
     return false;
   }
-  /// Returns whether the features meet at all times, while their points stay coplanar.
-  [[nodiscard]] bool meet_throughout() const {
-    const std::vector<JudgedTime> times = critical_in_plane();
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      if (!meet(times[k])) return false;
-      if (k + 1 < times.size() && !are_equal(times[k], times[k + 1]) &&
-          !meet(between(times[k], times[k + 1])))
-        return false;
-    }
-    return true;
+  /// Returns the ends of the step, and all times at which an answer of `meet` may change, ascending.
+  [[nodiscard]] std::vector<JudgedTime> critical_in_plane() const {
+    std::vector<JudgedTime> critical;
+    add_roots({0, -1, 1}, critical);
+    for (const Polynomial& p : all_compared()) add_roots(p, critical);
+    std::sort(critical.begin(), critical.end(), [](const JudgedTime& a, const JudgedTime& b) {
+      return sturm::compare(*a.sequence, a.root, *b.sequence, b.root) < 0;
+    });
+    return critical;
   }
   [[nodiscard]] static JudgedTime number(const Rational& x) {
     return {std::make_shared<const sturm::Sequence>(sturm::with_root(x)), {x, x}};
@@ -193,16 +192,6 @@ class ImpactJudge {
   [[nodiscard]] std::vector<std::array<std::size_t, 3>> ends_on_edges() const {
     if (kind_ == ImpactKind::vertex_face) return {{1, 2, 0}, {2, 3, 0}, {3, 1, 0}};
     return {{0, 1, 2}, {0, 1, 3}, {2, 3, 0}, {2, 3, 1}};
-  }
-  /// Returns the ends of the step, and all times at which an answer of `meet` may change, ascending.
-  [[nodiscard]] std::vector<JudgedTime> critical_in_plane() const {
-    std::vector<JudgedTime> critical;
-    add_roots({0, -1, 1}, critical);
-    for (const Polynomial& p : all_compared()) add_roots(p, critical);
-    std::sort(critical.begin(), critical.end(), [](const JudgedTime& a, const JudgedTime& b) {
-      return sturm::compare(*a.sequence, a.root, *b.sequence, b.root) < 0;
-    });
-    return critical;
   }
   [[nodiscard]] std::vector<Polynomial> all_compared() const {
     const Shares found = shares();

@@ -46,9 +46,9 @@ const kinds = {
   crossings: {
     cross_plus: "Two bonds pass through each other. The linking number of closed strands along them rises by one.",
     cross_minus: "Two bonds pass through each other. The linking number of closed strands along them falls by one.",
-    end_plus: "An end of a bond passes through another bond. The strand passes if both bonds at the bead say plus.",
-    end_minus: "An end of a bond passes through another bond. The strand passes if both bonds at the bead say minus.",
-    touch: "Two bonds touch and do not pass through each other.",
+    end_plus: "An end of a bond passes through another bond. The strand passes if both bonds at the bead have an end_plus event.",
+    end_minus: "An end of a bond passes through another bond. The strand passes if both bonds at the bead have an end_minus event.",
+    touch: "Two bonds touch without passing through each other.",
   },
   sorted: { interchange: "Two neighbours in the list exchange places." },
   hull: {
