@@ -46,7 +46,7 @@ std::vector<BeadId> bonds_of(std::span<const NecklaceBeads> necklaces) {
   std::vector<BeadId> bonds;
   std::size_t first = 0;
   for (const NecklaceBeads& necklace : necklaces) {
-    for (std::size_t b = 0; necklace.is_chain && b + 1 < necklace.count; ++b)
+    for (std::size_t b = 0; necklace.chain_like && b + 1 < necklace.count; ++b)
       if (!std::binary_search(necklace.breaks.begin(), necklace.breaks.end(), b))
         bonds.push_back(static_cast<BeadId>(first + b));
     first += necklace.count;
@@ -235,7 +235,21 @@ void FrameQueue::push(std::span<const double> coordinates, std::optional<double>
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     frame.positions(static_cast<Eigen::Index>(i % columns_), static_cast<Eigen::Index>(i / columns_)) =
         coordinates[i];
-  if (cell_) paths_.follow(frame.positions, *cell_);
+  if (!cell_) return;
+  if (frame.stamp.number == 0) paths_.join_first_frame(bonded_in_cell(frame.positions));
+  paths_.follow(frame.positions, *cell_);
+}
+
+std::vector<bool> FrameQueue::bonded_in_cell(const Eigen::Matrix3Xd& positions) const {
+  std::vector<bool> bonded(beads_, false);
+  Eigen::Index begin = 0;
+  for (const NecklaceBeads& necklace : necklaces_) {
+    const auto count = static_cast<Eigen::Index>(necklace.count);
+    if (sequence_in_cell(positions.middleCols(begin, count), *cell_) != SequenceInCell::fluid)
+      std::fill_n(bonded.begin() + begin + 1, count - 1, true);
+    begin += count;
+  }
+  return bonded;
 }
 
 bool FrameQueue::next(FrameRead& frame) {

@@ -34,7 +34,7 @@ struct NecklaceBeads {
   std::string element_lack = {};           ///< a message that says why elements are unknown, if any are
   /// b: beads b and b+1 are joined across a chain break or are not bonded at all; in ascending order.
   std::vector<std::size_t> breaks = {};
-  bool is_chain = true;    ///< consecutive beads are meant to be bonded
+  bool chain_like = true;  ///< consecutive beads are meant to be bonded
   BeadGroups groups = {};  ///< empty unless asked for
   bool at_rest = false;    ///< an obstacle, or a necklace of one frame beside others that move
 };
@@ -107,8 +107,9 @@ class MemoryFrames final : public FrameSource {
   bool truncated_ = false;
 };
 
-/// Frames that the caller pushes. Each frame is handed out once and not kept. In a periodic cell, each bead
-/// is moved to the image nearest to its place in the frame before (UnwrappedBeads).
+/// Frames that the caller pushes. Each frame is handed out once and not kept. In a periodic cell, necklaces
+/// that are no fluid are made whole in the first frame. From then on, each bead is moved to the image nearest
+/// to its place in the frame before (UnwrappedBeads).
 class FrameQueue final : public FrameSource {
  public:
   /// Frames have `dimension` coordinates per bead, 1 to 3. The others are zero. `cell` is the cell of the
@@ -131,6 +132,9 @@ class FrameQueue final : public FrameSource {
   [[nodiscard]] bool is_open() const override { return open_; }
 
  private:
+  /// Returns for each bead whether it is bonded to the bead before it, judged by distances in the cell.
+  [[nodiscard]] std::vector<bool> bonded_in_cell(const Eigen::Matrix3Xd& positions) const;
+
   std::vector<NecklaceBeads> necklaces_;
   std::size_t beads_, columns_;
   std::optional<Cell> cell_;  // of the last frame

@@ -339,7 +339,8 @@ void UnwrappedBeads::follow(WholeChain::Frame frame, const Cell& cell) {
   if (last_.cols() != frame.cols()) {
     shifts_ = Eigen::Matrix3Xd::Zero(3, frame.cols());
     last_ = frame;
-    for (Eigen::Index bead = 1; bead < frame.cols() && joins_first_; ++bead) {
+    for (Eigen::Index bead = 1; bead < frame.cols() && !joined_.empty(); ++bead) {
+      if (!joined_[static_cast<std::size_t>(bead)]) continue;
       shifts_.col(bead) = images.nearest(last_.col(bead) - frame.col(bead - 1));
       frame.col(bead) = images.shifted(last_.col(bead), shifts_.col(bead));
     }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace kds {
@@ -150,16 +151,16 @@ class WholeChain {
 /// joined. Each bead is moved by whole cell vectors of the present frame, in one rounding.
 class UnwrappedBeads {
  public:
-  /// Moves each bead of the first frame to the image nearest to the bead before it.
-  void join_first_frame() { joins_first_ = true; }
+  /// Moves some beads of the first frame to the image nearest to the bead before: those with `joined[bead]`.
+  void join_first_frame(std::vector<bool> joined) { joined_ = std::move(joined); }
   void follow(WholeChain::Frame frame, const Cell& cell);
   /// Starts again: the next frame is the first.
   void restart() { last_.resize(3, 0); }
 
  private:
-  Eigen::Matrix3Xd last_;    // the frame before, as the file has it
-  Eigen::Matrix3Xd shifts_;  // of each bead, in cell vectors
-  bool joins_first_ = false;
+  Eigen::Matrix3Xd last_;     // the frame before, as the file has it
+  Eigen::Matrix3Xd shifts_;   // of each bead, in cell vectors
+  std::vector<bool> joined_;  // empty: none
 };
 
 /// How the beads of a file that names no molecules follow one another, by the distances of consecutive beads

@@ -22,7 +22,7 @@ FileFrames::FileFrames(std::vector<NecklaceStream> files, bool last_is_obstacle)
     const bool is_obstacle = last_is_obstacle && &file == &files_.back();
     for (const Trajectory& head : file.heads()) {
       necklaces_.push_back(beads_of(head));
-      necklaces_.back().is_chain = file.chain_like();
+      necklaces_.back().chain_like = file.chain_like();
       necklaces_.back().at_rest = is_obstacle || (at_rest_.back() && some_move);
     }
   }

@@ -35,7 +35,8 @@ struct PushedFrames {
   std::vector<double> radii = {};           ///< one per bead, or one for all; empty: points
   FrameMotion motion = FrameMotion::linear;
   /// The cell of the first frame, in two or three dimensions, if beads are in a periodic cell, as read_cell
-  /// accepts it. Each bead then moves to the image nearest to its place in the frame before.
+  /// accepts it. Necklaces are made whole in the first frame, unless consecutive beads are as far apart as in
+  /// a fluid. Each bead then moves to the image nearest to its place in the frame before.
   std::optional<Cell> cell = std::nullopt;
 };
 

@@ -203,7 +203,9 @@ TEST(DiscreteStepAdapter, UnwrapsPushedFrames) {
   BezierMotion<3, 1> step(2);
   scene.load(0, step);
   EXPECT_EQ(scene.centers(1).col(0), Eigen::Vector3d(9, 1, 1));
-  EXPECT_EQ(scene.centers(1).col(1), next.col(1));
+  const Eigen::Vector3d joined = cell.col(0) - cell.col(2);  // the image nearest to bead 0 in the first frame
+  EXPECT_EQ(scene.centers(0).col(1), wrapped.col(1) + joined);
+  EXPECT_EQ(scene.centers(1).col(1), next.col(1) + joined);
   ASSERT_NE(step.cell(), nullptr);
   for (int vector = 0; vector < 3; ++vector)
     for (int k = 0; k <= 1; ++k)
