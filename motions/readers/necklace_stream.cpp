@@ -160,7 +160,11 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
     if (!options.groups.empty() && heads_[n].bead_groups.empty())
       heads_[n].bead_groups.assign(static_cast<std::size_t>(bead_counts_[n]),
                                    groups_without_names(opened_.file, options.groups));
-  if (!options.unwrap) look_for_molecules(first);
+  look_for_molecules(first);
+  chain_like_ = opened_.chain_like && !is_fluid_;
+  if (options.unwrap) is_fluid_ = are_several_ = false;  // the caller knows better how beads move
+  if (are_several_)
+    paths_.join_first_frame(std::vector<bool>(static_cast<std::size_t>(first.positions.cols()), true));
   find_pieces();
   unwrap_ = options.unwrap.value_or(is_fluid_ || are_several_ ? Unwrap::beads : Unwrap::chains);
   if (is_fluid_) opened_.chain_like = false;
@@ -188,7 +192,6 @@ void NecklaceStream::look_for_molecules(const FrameRead& first) {
     begin += count;
   }
   are_several_ = are_several_ && !is_fluid_ && heads_.size() == 1;
-  if (are_several_) paths_.join_first_frame();
 }
 
 void NecklaceStream::place(FrameRead& first) {

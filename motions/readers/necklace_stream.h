@@ -42,7 +42,7 @@ class NecklaceStream {
   [[nodiscard]] bool next(FrameRead& frame);
   void rewind();
   /// Returns whether consecutive beads are meant to be bonded.
-  [[nodiscard]] bool chain_like() const { return opened_.chain_like; }
+  [[nodiscard]] bool chain_like() const { return chain_like_; }
   /// Returns whether the file has only one frame, whatever ReadOptions::frames selects. A file that is
   /// truncated or damaged after its first frame had more.
   [[nodiscard]] bool holds_one_frame() const { return opened_.at_rest; }
@@ -104,9 +104,10 @@ class NecklaceStream {
   FramesOpened opened_;
   Unwrap unwrap_ = Unwrap::chains;
   std::optional<Cell> last_cell_;  ///< of the frame before
-  bool is_fluid_ = false;          ///< `unwrap_` is beads because of the first frame
-  bool are_several_ = false;       ///< `unwrap_` is beads, and beads of the first frame are joined
-  UnwrappedBeads paths_;           ///< if `unwrap_` is beads
+  bool chain_like_ = true;
+  bool is_fluid_ = false;     ///< `unwrap_` is beads because of the first frame
+  bool are_several_ = false;  ///< `unwrap_` is beads, and beads of the first frame are joined
+  UnwrappedBeads paths_;      ///< if `unwrap_` is beads
   std::optional<double> time_step_;
   bool until_damage_;
   std::vector<Trajectory> heads_;
