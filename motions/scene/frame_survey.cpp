@@ -107,6 +107,7 @@ void CellSurvey::add(const FrameRead& frame) {
   if (!frame.cell) {
     ++without_cell_;
     last_.resize(3, 0);
+    last_cell_.reset();
     return;
   }
   ++with_cell_;
@@ -126,6 +127,12 @@ void CellSurvey::add(const FrameRead& frame) {
         far_ = {1, frame.stamp.number, static_cast<std::size_t>(bead), length, shortest / 2};
     }
   }
+  if (last_cell_ && frame.stamp.number == last_number_ + 1) {
+    const double change = (*frame.cell - *last_cell_).norm();
+    const double shortest = Images(*last_cell_).reduced().col(0).norm();
+    if (2 * change > shortest && jumps_.count++ == 0) jumps_ = {1, frame.stamp.number, change, shortest / 2};
+  }
+  last_cell_ = frame.cell;
   last_ = frame.positions;
   last_number_ = frame.stamp.number;
 }
@@ -197,6 +204,12 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   if (warn)
     for (const std::string& line : frames.warnings()) warn(line);
   if (warn && survey.periodic && cells.far_moves().count > 0) warn(described(cells.far_moves(), necklaces));
+  if (const CellJumps& jumps = cells.cell_jumps(); warn && survey.periodic && jumps.count > 0)
+    warn(fmt::format(
+        "{}: frame {}: the cell has changed by {:.4g} since the frame before, more than half of its shortest "
+        "vector ({:.4g}), so the paths of images are a guess ({})",
+        necklaces.front().file, jumps.first_frame, jumps.change, jumps.half_cell,
+        counted(jumps.count, "such change")));
   frames.seek(0);
   return survey;
 }

@@ -66,7 +66,16 @@ struct FarMoves {
   double half_cell = 0;         ///< half of the shortest vector there
 };
 
-/// Collects what the cells of all frames have in common, and moves that are far for them.
+/// Changes of the cell, from one frame of the file to the next, by more than half of the shortest vector of
+/// its lattice: other vectors of the new lattice may be as near, so the paths of images are a guess.
+struct CellJumps {
+  std::size_t count = 0;
+  std::size_t first_frame = 0;  ///< number in the file of the frame after the first of them
+  double change = 0;            ///< of the first of them, the norm of the difference
+  double half_cell = 0;         ///< half of the shortest vector before it
+};
+
+/// Collects what the cells of all frames have in common, and moves and changes that are far for them.
 class CellSurvey {
  public:
   void add(const FrameRead& frame);
@@ -75,6 +84,7 @@ class CellSurvey {
   /// Returns why not, or an empty text if no frame has a cell.
   [[nodiscard]] std::string why_not() const;
   [[nodiscard]] const FarMoves& far_moves() const { return far_; }
+  [[nodiscard]] const CellJumps& cell_jumps() const { return jumps_; }
 
  private:
   std::size_t with_cell_ = 0, without_cell_ = 0;
@@ -83,7 +93,9 @@ class CellSurvey {
   std::array<bool, 3> in_plane_{true, true, true};  // for each axis: cells lie in the plane across it
   Eigen::Matrix3Xd last_;                           // positions of the frame before
   std::size_t last_number_ = 0;                     // number of that frame in the file
+  std::optional<Cell> last_cell_;
   FarMoves far_;
+  CellJumps jumps_;
 };
 
 struct FrameSurvey {
