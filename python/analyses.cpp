@@ -193,14 +193,7 @@ py::dict conditions(const Arguments& arguments, const py::object& progress) {
   const InfoOptions options = parse_info_options(arguments);
   return run_analysis(progress, [&](const Progress& look, const Warn& warn) {
     refuse_instance(options);
-    const auto frames = open_frames(options, warn);
-    const FrameSurvey survey = survey_frames(*frames, options.radius == "auto", warn);
-    const std::vector<double> radii = bead_radii(options.radius, frames->necklaces(), survey);
-    SceneInfo info =
-        describe_frames(frames->heads(), frames->frame_counts(), *frames, radii, options.validate, look);
-    info.first_time = survey.first.picoseconds;
-    info.last_time = survey.last.picoseconds;
-    info.truncated = survey.truncated;
+    const SceneInfo info = describe_input(options, look, warn);
     Found found;
     add_scene(found.json, info);
     found.table = scene_table(info);

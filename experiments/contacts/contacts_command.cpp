@@ -175,7 +175,7 @@ ContactsFound find_contacts(const ContactsTask& task,
   hint_at_threads(task.threads, found.scene->step_count(), found.scene->bead_count(), warn);
   found.report = follow_contacts(task, *found.scene, progress);
   const std::optional<CrossingCounts>& crossings = found.report->crossings;
-  if (crossings && crossings->crosses + crossings->at_ends > 0) warn(crossings->sentence());
+  if (crossings && crossings->any()) warn(crossings->sentence());
   found.figures = figures_of(*found.report);
   if (task.certify) found.figures.certificate = certify_contacts(task, *found.scene, *found.report, progress);
   if (found.figures.all.contacts == 0) warn_of_none(task, *found.scene, *found.report, warn);

@@ -373,8 +373,10 @@ std::string contacts_text(const ContactsReport& report, const ContactsFigures& f
   std::string text =
       "Times are exact for the paths between the frames that are given; the spacing of frames is the "
       "error.\n" +
-      (report.crossings ? fmt::format("Crossings: {}.\n", report.crossings->sentence()) : "") + "\n" +
-      sampling_columns(report).text(sampling_rows(report));
+      (report.crossings && !report.crossings->any()
+           ? fmt::format("Crossings: {}.\n", report.crossings->sentence())
+           : "") +
+      "\n" + sampling_columns(report).text(sampling_rows(report));
   if (figures.certificate) {
     text += '\n';
     for (const auto& [label, line] : certified_lines(report, figures))

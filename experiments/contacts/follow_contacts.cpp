@@ -169,7 +169,8 @@ void check_times_ascend(const ContactsTask& task, const Scene& scene) {
 template <int D>
 void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report,
             const std::function<void(std::size_t, std::size_t)>& progress) {
-  ContactsRun<D> run(task, scene, report, radii_of(task, scene), scene.bead_groups(), has_crossings(scene));
+  const bool with_crossings = !refusal_of_crossings(scene);
+  ContactsRun<D> run(task, scene, report, radii_of(task, scene), scene.bead_groups(), with_crossings);
   ContactRule outer_rule = inner_rule_of(task, report);
   outer_rule.inner = outer_rule.outer = rule_of(task, report).outer;
   FrameContacts& frames = *report.frames;
@@ -189,7 +190,7 @@ void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report
     progress(frame, scene.step_count());
   });
   frames.finish();
-  if (has_crossings(scene)) report.crossings = run.crossings();
+  if (with_crossings) report.crossings = run.crossings();
 }
 
 template <int D>

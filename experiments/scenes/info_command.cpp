@@ -147,34 +147,53 @@ void describe_beads(const InfoOptions& options, TableCommand& command) {
 }
 
 void describe(const InfoOptions& options, TableCommand& command) {
-  auto frames = open_frames(options, command.warn());
-  FrameSurvey survey = survey_frames(*frames, options.radius == "auto", command.warn());
+  const SceneInfo info = describe_input(options, command.progress(), command.warn());
+  Json json;
+  add_scene(json, info);
+  json["settings"] = info_options().settings_json(options);
+  json["warnings"] = command.warnings();
+  command.deliver(json, conditions_csv(info), scene_table(info));
+}
+
+// Counts crossings once more through all frames. A run may refuse an input that can be described.
+void add_crossings(SceneInfo& info, const InfoOptions& options, std::unique_ptr<FrameSource> frames,
+                   FrameSurvey survey, const std::vector<double>& radii,
+                   const std::function<void(std::size_t, std::size_t)>& progress,
+                   const std::function<void(const std::string&)>& warn) {
+  if (survey.frame_count < 2) return;
+  frames->seek(0);
+  survey.periodic = survey.periodic && options.periodic;
+  try {
+    const Scene scene(std::move(frames), survey, radii);
+    if (scene.dimension() < 3 || scene.bonds().empty()) return;
+    if (const auto refusal = refusal_of_crossings(scene)) {
+      info.why_no_crossings = *refusal;
+      return;
+    }
+    warn_of_cells("crossings", scene.lacks_images(), options, warn);
+    info.crossings = count_crossings(scene, progress);
+  } catch (const InputError& refusal) {
+    info.why_no_crossings = refusal.what();
+  }
+}
+
+}  // namespace
+
+SceneInfo describe_input(const InfoOptions& options,
+                         const std::function<void(std::size_t, std::size_t)>& progress,
+                         const std::function<void(const std::string&)>& warn) {
+  auto frames = open_frames(options, warn);
+  const FrameSurvey survey = survey_frames(*frames, options.radius == "auto", warn);
   const std::vector<double> radii = bead_radii(options.radius, frames->necklaces(), survey);
-  SceneInfo info = describe_frames(frames->heads(), frames->frame_counts(), *frames, radii, options.validate,
-                                   command.progress());
+  SceneInfo info =
+      describe_frames(frames->heads(), frames->frame_counts(), *frames, radii, options.validate, progress);
   info.first_time = survey.first.picoseconds;
   info.last_time = survey.last.picoseconds;
   info.truncated = survey.truncated;
   info.length_unit = length_unit(options);
-  Json json;
-  add_scene(json, info);
-  std::string text = scene_table(info);
-  if (survey.frame_count > 1) {
-    frames->seek(0);
-    survey.periodic = survey.periodic && options.periodic;
-    const Scene scene(std::move(frames), survey, radii);
-    if (has_crossings(scene)) {
-      const CrossingCounts crossings = count_crossings(scene, command.progress());
-      json["crossings"] = crossings.json();
-      text += fmt::format("\ncrossings  {}\n", crossings.sentence());
-    }
-  }
-  json["settings"] = info_options().settings_json(options);
-  json["warnings"] = command.warnings();
-  command.deliver(json, conditions_csv(info), text);
+  add_crossings(info, options, std::move(frames), survey, radii, progress, warn);
+  return info;
 }
-
-}  // namespace
 
 int info_command(const Arguments& arguments) {
   const InfoOptions options = parse_info_options(arguments);

@@ -248,6 +248,7 @@ void add_scene(Json& json, const SceneInfo& info) {
   json["necklaces"] = necklaces;
   json["rows"] = condition_columns().json(info.conditions);
   json["proper"] = info.proper();
+  if (info.crossings) json["crossings"] = info.crossings->json();
 }
 
 std::string conditions_csv(const SceneInfo& info) { return condition_columns().csv(info.conditions); }
@@ -264,6 +265,9 @@ std::string scene_table(const SceneInfo& info) {
         fmt::format("necklace  {}: {}\n", one_line(info.necklaces[n].file), necklace_line(info.necklaces[n]));
   if (info.necklaces.size() > kNecklacesShown)
     text += fmt::format("          and {} more\n", info.necklaces.size() - kNecklacesShown);
+  if (info.crossings) text += fmt::format("crossings {}\n", info.crossings->sentence());
+  if (!info.why_no_crossings.empty())
+    text += fmt::format("crossings not counted: {}\n", info.why_no_crossings);
   return text + "\n" + condition_columns().text(info.conditions);
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/output/result_json.h"
+#include "experiments/run/count_crossings.h"
 #include "motions/frames/frame_reader.h"
 #include "motions/frames/frame_source.h"
 #include "motions/frames/trajectory.h"
@@ -49,6 +50,8 @@ struct SceneInfo {
   std::string length_unit = {};  ///< empty if lengths have none
   std::vector<NecklaceInfo> necklaces;
   std::array<ConditionInfo, kConditions.size()> conditions;
+  std::optional<CrossingCounts> crossings = {};  ///< on straight paths; empty if there are no bonds in space
+  std::string why_no_crossings = {};             ///< a message, if they could not be counted
 
   [[nodiscard]] bool proper() const;
 };
@@ -69,13 +72,13 @@ struct SceneInfo {
 /// Returns a short description for tables, such as "beads that follow each other touch".
 [[nodiscard]] std::string_view about(Condition condition);
 
-/// Adds `input`, `necklaces`, `rows` (one per condition) and `proper`.
+/// Adds `input`, `necklaces`, `rows` (one per condition), `proper` and `crossings`.
 void add_scene(Json& json, const SceneInfo& info);
 
 /// Returns a header and one line per condition.
 [[nodiscard]] std::string conditions_csv(const SceneInfo& info);
 
-/// Returns the scene, its necklaces, and a table of the conditions.
+/// Returns the scene, its necklaces, a table of the conditions, and a line about crossings.
 [[nodiscard]] std::string scene_table(const SceneInfo& info);
 
 }  // namespace kds
