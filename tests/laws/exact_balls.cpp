@@ -28,16 +28,52 @@ Beads box_of(const ExactBalls& balls, const Beads& present) {
   return ends;
 }
 
+namespace {
+
+using Shift = std::vector<Integer>;
+
+/// Returns all sums of up to six vectors of the cell, along each of them. Without a cell, returns zero.
+std::vector<Shift> shifts_of(const ExactBalls& balls) {
+  constexpr int most = 6;
+  std::vector<Shift> shifts{Shift(balls.dimension(), 0)};
+  for (const Shift& vector : balls.cell) {
+    const std::vector<Shift> before = std::exchange(shifts, {});
+    for (const Shift& shift : before)
+      for (int multiple = -most; multiple <= most; ++multiple) {
+        if (multiple != 0 && std::ranges::count(vector, Integer(0)) == std::ssize(vector)) continue;
+        Shift& more = shifts.emplace_back(shift);
+        for (std::size_t axis = 0; axis < vector.size(); ++axis) more[axis] += multiple * vector[axis];
+      }
+  }
+  return shifts;
+}
+
+/// Returns the square of the distance of an image, or a number that is at least `enough` if the square is.
+Integer square_up_to(const ExactBalls& balls, BeadId a, BeadId b, const Shift& shift,
+                     const std::optional<Integer>& enough) {
+  Integer square = 0;
+  for (std::size_t axis = 0; axis < shift.size() && (!enough || square < *enough); ++axis) {
+    const Integer along = balls.centers[b][axis] + shift[axis] - balls.centers[a][axis];
+    square += along * along;
+  }
+  return square;
+}
+
+}  // namespace
+
 Beads closest_of(const ExactBalls& balls, const Beads& present) {
+  const std::vector<Shift> shifts = shifts_of(balls);
   Beads closest;
-  Integer least;
+  std::optional<Integer> least;
   for (const BeadId a : present) {
     for (const BeadId b : present) {
       if (a >= b) continue;
-      const Integer square = balls.square(a, b);
-      if (!closest.empty() && least <= square) continue;
-      closest = {a, b};
-      least = square;
+      for (const Shift& shift : shifts) {
+        const Integer square = square_up_to(balls, a, b, shift, least);
+        if (least && *least <= square) continue;
+        closest = {a, b};
+        least = square;
+      }
     }
   }
   return closest;
@@ -97,31 +133,16 @@ Beads supports_of(const ExactBalls& balls, const Beads& present, const std::vect
 }
 
 Beads contacts_of(const ExactBalls& balls, const Beads& present, const PairsAsked& asked) {
-  constexpr int most = 6;
-  std::vector<std::vector<Integer>> shifts{std::vector<Integer>(balls.dimension(), 0)};
-  for (const std::vector<Integer>& vector : balls.cell) {
-    const std::vector<std::vector<Integer>> before = std::exchange(shifts, {});
-    for (const std::vector<Integer>& shift : before)
-      for (int multiple = -most; multiple <= most; ++multiple) {
-        if (multiple != 0 && std::ranges::count(vector, Integer(0)) == std::ssize(vector)) continue;
-        std::vector<Integer>& more = shifts.emplace_back(shift);
-        for (std::size_t axis = 0; axis < vector.size(); ++axis) more[axis] += multiple * vector[axis];
-      }
-  }
+  const std::vector<Shift> shifts = shifts_of(balls);
   Beads pairs;
   for (const BeadId a : present) {
     for (const BeadId b : present) {
       if (a >= b || !asked.asks({a, b})) continue;
       const Integer reach = balls.radii[a] + balls.radii[b];
-      const auto meets = [&](const std::vector<Integer>& shift) {
-        Integer square = 0;
-        for (std::size_t axis = 0; axis < shift.size(); ++axis) {
-          const Integer along = balls.centers[b][axis] + shift[axis] - balls.centers[a][axis];
-          square += along * along;
-        }
-        return square <= reach * reach;
-      };
-      if (std::ranges::any_of(shifts, meets)) pairs.insert(pairs.end(), {a, b});
+      const Integer enough = reach * reach + 1;
+      if (std::ranges::any_of(
+              shifts, [&](const Shift& shift) { return square_up_to(balls, a, b, shift, enough) < enough; }))
+        pairs.insert(pairs.end(), {a, b});
     }
   }
   return pairs;

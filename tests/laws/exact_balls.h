@@ -85,6 +85,9 @@ using Beads = std::vector<BeadId>;
 
 /// Returns the first and last bead along each axis.
 [[nodiscard]] Beads box_of(const ExactBalls& balls, const Beads& present);
+// In a cell, distances are those of nearest images, among images that are at most six cells away along each
+// vector.
+
 /// Returns the two beads, or nothing if fewer are present.
 [[nodiscard]] Beads closest_of(const ExactBalls& balls, const Beads& present);
 /// Returns the corners of the convex hull in the plane by gift wrapping, counterclockwise from the least.
@@ -93,8 +96,7 @@ using Beads = std::vector<BeadId>;
 [[nodiscard]] Beads supports_of(const ExactBalls& balls, const Beads& present,
                                 const std::vector<BeadRange>& nodes,
                                 std::span<const SlabDirection> directions);
-/// Returns the pairs in question whose closed balls intersect, two ids for each pair. In a cell, all images
-/// of a ball count that are at most six cells away along each vector.
+/// Returns the pairs in question whose closed balls intersect, two ids for each pair.
 [[nodiscard]] Beads contacts_of(const ExactBalls& balls, const Beads& present, const PairsAsked& asked);
 
 /// Explains why the order is not that along the first axis, or returns nothing. Beads may tie in any order.

@@ -398,7 +398,7 @@ std::vector<LawScene> make_rows() {
       {"wandering chain", 4, wandering_chain},
       {"creeping", 3, creeping},
       {"straight on", 8, straight_on},
-      {"cells", 42, cells, {"contacts"}},
+      {"cells", 42, cells, {"closest", "contacts", "crossings"}},
       {"regular", 11, regular},
       {"handmade", 32, handmade},
       {.name = "wild",
