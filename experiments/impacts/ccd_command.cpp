@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ constexpr std::array<std::string_view, 2> kKinds{"vertex-face", "edge-edge"};
 constexpr CommandSpec kCcdCommand{
     "kds ccd",
     "Decides exactly whether a point meets a triangle, or two edges meet, on straight paths, and when first.",
-    "FILE",
+    "FILE...",
     "queries of eight lines each: four points at time 0 and at time 1, as numerators and denominators (also "
     ".gz)",
     "kds ccd queries.csv.gz --kind edge-edge --csv answers.csv\n"
@@ -72,17 +73,15 @@ struct Answers {
   std::string first_other;  ///< the first query that the file answers otherwise
 };
 
-/// Returns the time of all queries and its distribution.
-std::string times_text(std::vector<double> microseconds) {
-  if (microseconds.empty()) return "";
-  std::sort(microseconds.begin(), microseconds.end());
+/// Returns two lines: the total time, and quantiles of the time per query.
+std::string times_text(std::vector<double> seconds) {
+  std::sort(seconds.begin(), seconds.end());
   const auto quantile = [&](double share) {
-    return microseconds[static_cast<std::size_t>(share * static_cast<double>(microseconds.size() - 1))];
+    return seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))];
   };
   return fmt::format(
-      "seconds  {:.4g}; of a query in microseconds: median {:.2f}, 99% below {:.2f}, most {:.2f}\n",
-      1e-6 * std::accumulate(microseconds.begin(), microseconds.end(), 0.0), quantile(0.5), quantile(0.99),
-      quantile(1));
+      "seconds  {:.4g}\nseconds of a query  median {:.3g}, 99th percentile {:.3g}, maximum {:.3g}\n",
+      std::accumulate(seconds.begin(), seconds.end(), 0.0), quantile(0.5), quantile(0.99), quantile(1));
 }
 
 }  // namespace
@@ -104,14 +103,14 @@ int ccd_command(const Arguments& arguments) {
   AnswerLines lines(csv, files);
   ImpactSearch search(kind);
   Answers answers;
-  std::vector<double> microseconds;
+  std::vector<double> seconds;
   for (const std::string& file : parsed.operands()) {
     QueryFile queries(file);
     ImpactQuery query;
     for (std::uint64_t in_file = 0; queries.next(query); ++in_file) {
       InterruptionCheck::ask();
       std::optional<Impact> first;
-      microseconds.push_back(1e6 * seconds_of<WallClock>([&] { first = search.first_impact(query.points); }));
+      seconds.push_back(seconds_of<WallClock>([&] { first = search.first_impact(query.points); }));
       lines.add(answers.queries++, first);
       if (first) ++answers.collide;
       if (!query.answer) continue;
@@ -120,9 +119,11 @@ int ccd_command(const Arguments& arguments) {
       if (answers.others++ == 0) answers.first_other = fmt::format("query {} of {}", in_file, file);
     }
   }
+  if (answers.queries == 0)
+    throw InputError(fmt::format("{}: expected queries, found none", fmt::join(parsed.operands(), ", ")));
   commit_together({&files});
   std::string text = fmt::format("queries  {}\ncollide  {}\n{}", with_thousands(answers.queries),
-                                 with_thousands(answers.collide), times_text(std::move(microseconds)));
+                                 with_thousands(answers.collide), times_text(std::move(seconds)));
   if (answers.known > 0)
     text += fmt::format("answers  {} known, {} otherwise\n", with_thousands(answers.known),
                         with_thousands(answers.others));
