@@ -35,7 +35,7 @@ struct TimedWork {
   std::size_t items = 0;
   std::string unit = "ns";
   std::function<double()> seconds;              ///< returns the seconds of one call without its preparation
-  std::map<std::string, double> counters = {};  ///< as of Work
+  std::map<std::string, double> counters = {};  ///< like Work::counters
 };
 
 /// Returns a function that calls `make` at its first call, keeps the result and returns a reference to it. So

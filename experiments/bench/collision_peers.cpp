@@ -115,10 +115,9 @@ std::span<const CollisionPeer> collision_peers() {
   return peers;
 }
 
+std::optional<bool> fcl_collides([[maybe_unused]] ImpactKind kind,
+                                 [[maybe_unused]] std::span<const double> points) {
 #ifdef KDS_FCL
-const bool ContinuousPeer::available = true;
-
-bool ContinuousPeer::collides(std::span<const double> points) const {
   using Intersect = fcl::detail::Intersect<double>;
   const auto at = [&](std::size_t point, std::size_t end) {
     const double* const p = &points[6 * point + 3 * end];
@@ -126,16 +125,14 @@ bool ContinuousPeer::collides(std::span<const double> points) const {
   };
   double time = 0;
   fcl::Vector3<double> place;
-  if (kind_ == ImpactKind::vertex_face)
+  if (kind == ImpactKind::vertex_face)
     return Intersect::intersect_VF(at(1, 0), at(2, 0), at(3, 0), at(0, 0), at(1, 1), at(2, 1), at(3, 1),
                                    at(0, 1), &time, &place);
   return Intersect::intersect_EE(at(0, 0), at(1, 0), at(2, 0), at(3, 0), at(0, 1), at(1, 1), at(2, 1),
                                  at(3, 1), &time, &place);
-}
 #else
-const bool ContinuousPeer::available = false;
-
-bool ContinuousPeer::collides(std::span<const double>) const { return false; }
+  return std::nullopt;
 #endif
+}
 
 }  // namespace kds::bench

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -28,18 +29,8 @@ struct CollisionPeer {
 
 [[nodiscard]] std::span<const CollisionPeer> collision_peers();
 
-/// FCL's continuous collision of a point and a triangle, or of two edges, on straight paths. It is
-/// approximate.
-class ContinuousPeer {
- public:
-  static const bool available;
-
-  explicit ContinuousPeer(ImpactKind kind) : kind_(kind) {}
-  /// Takes points as ImpactSearch does.
-  [[nodiscard]] bool collides(std::span<const double> points) const;
-
- private:
-  ImpactKind kind_;
-};
+/// Returns whether FCL finds a collision of a point and a triangle, or of two edges, on straight paths
+/// (approximate), or nothing without FCL. Takes points as ImpactSearch does.
+[[nodiscard]] std::optional<bool> fcl_collides(ImpactKind kind, std::span<const double> points);
 
 }  // namespace kds::bench

@@ -49,7 +49,7 @@ class Measure:
         speed = rounds[0].get("items_per_second")
         self.items = round(speed * self.calls[0] / 1e9) if speed else None
         self.unit = rounds[0]["label"]
-        self.ratios = {key: value for key, value in rounds[0].items() if key.startswith(("wrapped events", "false answers"))}
+        self.ratios = {key: value for key, value in rounds[0].items() if key.startswith(("wrapped events", "false "))}
 
     def time(self, choose=statistics.median, items=True):
         return choose(self.calls) / (self.items if items and self.items else 1)
