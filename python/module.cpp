@@ -225,5 +225,6 @@ PYBIND11_MODULE(_kds, module) {
   module.def("colliding_pairs", kds::python::colliding_pairs);
   module.def("closest_pair", kds::python::closest_pair_of);
   module.def("impacts", kds::python::impacts);
+  module.attr("highest_degree_of_impacts") = kds::ImpactSearch::highest_degree;
   kds::python::bind_timing(module);
 }

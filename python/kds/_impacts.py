@@ -3,10 +3,10 @@
 import numpy as np
 
 from . import _kds
-from ._options import InputError, flag, numbers
+from ._options import InputError, flag, plain
 
 KINDS = ("vertex-face", "edge-edge")
-MOST_CONTROLS = 21  # degree 20
+MOST_CONTROLS = _kds.highest_degree_of_impacts + 1
 
 
 def impacts(kind, *points, all=False):
@@ -18,8 +18,9 @@ def impacts(kind, *points, all=False):
     of each query.
 
     Returns a structured array, one row for each time: ``query``, ``lower`` and ``upper`` (a bracket of the time; equal if
-    it is a double), and ``passes``: whether the features pass through each other, or only touch. A query without a row has
-    no impact. Everything is closed and exact: ends of edges, corners, and the times 0 and 1 count.
+    it is a double), and ``passes``: whether the features pass through each other. It is False if they only touch, or if
+    their points stay coplanar. A query without a row has no impact. Everything is closed and exact: ends of edges,
+    corners, and the times 0 and 1 count. Raises InputError if the arrays differ in shape or hold a number that is not finite.
 
     >>> import kds
     >>> triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
@@ -27,12 +28,12 @@ def impacts(kind, *points, all=False):
     >>> hits["query"].tolist(), hits["upper"].round(12).tolist(), hits["passes"].tolist()
     ([0], [0.5], [True])
     """
-    if kind not in KINDS:
+    if not isinstance(kind, str) or kind not in KINDS:
         raise InputError(f"kind: is {kind!r}; expected {' or '.join(map(repr, KINDS))}")
     if not 2 <= len(points) <= MOST_CONTROLS:
-        raise InputError(f"points: {len(points)} arrays; expected the positions at time 0 and at time 1, or the control "
+        raise InputError(f"points: found {len(points)}; expected the positions at time 0 and at time 1, or the control "
                          f"points of curves, at most {MOST_CONTROLS}")
-    arrays = [np.asarray(numbers(f"points {k}", array), dtype=float) for k, array in enumerate(points)]
+    arrays = [plain(f"points {k}", array) for k, array in enumerate(points)]
     for k, array in enumerate(arrays):
         if array.ndim != 3 or array.shape[1:] != (4, 3) or array.shape != arrays[0].shape:
             raise InputError(f"points {k}: has the shape {array.shape}; expected (queries, 4, 3), the same for all arrays")

@@ -14,6 +14,7 @@ import tempfile
 import unittest
 import warnings
 import zlib
+from pathlib import Path
 
 import numpy as np
 
@@ -566,12 +567,11 @@ class Driving(unittest.TestCase):
         self.assertEqual(run.contacts.pairs().tolist(), pairs_within(self.positions[4][:10], 4, apart=2))
 
 
-@unittest.skipUnless("nearest" in kds.structure_names(), "the module is built without tests/python/nearest_structure.cpp")
 class Impacts(unittest.TestCase):
     def queries(self, kind):
         """Returns the public queries: points (queries, 2, 4, 3), and which features meet."""
         points, answers = [], []
-        for path in sorted((DATA / "ccd").glob(f"*/{kind}/*")):
+        for path in sorted((Path(DATA) / "ccd").glob(f"*/{kind}/*")):
             with gzip.open(path, "rt") if path.suffix == ".gz" else open(path) as file:
                 for row in csv.reader(file):
                     numbers = [int(number) for number in row]
@@ -597,16 +597,19 @@ class Impacts(unittest.TestCase):
 
     def test_other_arrays_are_refused(self):
         good = np.zeros((2, 4, 3))
-        for wrong, text in (((good,), "points: 1 arrays"), ((good, good[:1]), "points 1: has the shape"),
+        for wrong, text in (((good,), "points: found 1"), ((good, good[:1]), "points 1: has the shape"),
                             ((good, good + np.nan), "points 1: has a number that is not finite in query 0"),
-                            ((good[0], good[0]), "points 0: has the shape"), ((good, "no"), "points 1")):
+                            ((good[0], good[0]), "points 0: has the shape"), ((good,) * 22, "points: found 22"), ((good, "no"), "points 1")):
             with self.assertRaisesRegex(kds.InputError, text):
                 kds.impacts("edge-edge", *wrong)
+        with self.assertRaisesRegex(kds.InputError, "above 2.53"):
+            kds.impacts("edge-edge", good.astype(int) + 2**53 + 1, good)
         with self.assertRaisesRegex(kds.InputError, "kind: is 'edges'"):
             kds.impacts("edges", good, good)
         self.assertEqual(len(kds.impacts("edge-edge", good[:0], good[:0])), 0)
 
 
+@unittest.skipUnless("nearest" in kds.structure_names(), "the module is built without tests/python/nearest_structure.cpp")
 class OwnStructure(unittest.TestCase):
     def test_it_is_one_of_the_structures(self):
         positions = coil(frames=8, beads=40)
