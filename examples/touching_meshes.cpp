@@ -1,17 +1,19 @@
-// The times at which two moving triangle meshes begin to touch, exactly on straight paths between frames.
+// Prints, for each step, the first time at which a vertex, an edge or a face of one moving mesh begins to
+// meet one of the other, exactly on straight paths between frames. Surfaces that already intersect count too.
 //
 //   touching_meshes CLOTH-0.obj CLOTH-1.obj ... -- BALL-0.obj ...
 //
-// Each file is a frame of a mesh; the frames of a mesh have the same faces. A mesh of one frame is at rest.
+// Each file is a frame of a mesh: lines `v x y z` and triangles `f a b c`, with vertices numbered from 1. The
+// frames of a mesh have the same faces. A mesh of one frame is at rest.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "motions/scene/near_pairs.h"
@@ -37,29 +39,33 @@ void add_frame(Mesh& mesh, const std::string& path) {
   if (!file) refuse(path + ": cannot be read");
   std::vector<Eigen::Vector3d> vertices;
   std::set<Corners> features;
-  for (std::string line, word; std::getline(file, line);) {
+  for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);
+    std::string word;
     words >> word;
-    if (line.rfind("v ", 0) == 0) {
-      double x = 0, y = 0, z = 0;
-      if (!(words >> x >> y >> z)) refuse(path + ": expected three coordinates in '" + line + "'");
-      vertices.emplace_back(x, y, z);
-    } else if (line.rfind("f ", 0) == 0) {
-      Corners face;
-      while (words >> word) face.push_back(std::atoi(word.c_str()) - 1);  // "7/2/3": vertex 7
-      if (face.size() != 3) refuse(path + ": expected triangles, found '" + line + "'");
-      for (const int corner : face)
-        if (corner < 0 || corner >= int(vertices.size())) refuse(path + ": no such vertex in '" + line + "'");
-      features.insert(face);
-      for (int k = 0; k < 3; ++k)
-        features.insert({std::min(face[k], face[(k + 1) % 3]), std::max(face[k], face[(k + 1) % 3])});
+    double x = 0, y = 0, z = 0;
+    Corners face;
+    if (word == "v" && !(words >> x >> y >> z))
+      refuse(path + ": expected three coordinates in '" + line + "'");
+    if (word == "v") vertices.emplace_back(x, y, z);
+    if (word != "f") continue;
+    while (words >> word) {  // "7/2/3": vertex 7
+      char* end = nullptr;
+      face.push_back(int(std::strtol(word.c_str(), &end, 10)) - 1);
+      if ((*end != '\0' && *end != '/') || face.back() < 0 || face.back() >= int(vertices.size()))
+        refuse(path + ": expected vertices that come before, numbered from 1, in '" + line + "'");
     }
+    if (std::set<int>(face.begin(), face.end()).size() != 3 || face.size() != 3)
+      refuse(path + ": expected three vertices in '" + line + "'");
+    features.insert(face);
+    for (int k = 0; k < 3; ++k)
+      features.insert({std::min(face[k], face[(k + 1) % 3]), std::max(face[k], face[(k + 1) % 3])});
   }
   if (vertices.empty() || features.empty()) refuse(path + ": expected a mesh of triangles");
   for (int v = 0; v < int(vertices.size()); ++v) features.insert({v});
-  if (mesh.frames.empty()) mesh.features.assign(features.begin(), features.end());
-  if (!mesh.frames.empty() && mesh.frames[0].size() != vertices.size())
-    refuse(path + ": has other vertices than the frame before");
+  const std::vector<Corners> all(features.begin(), features.end());
+  if (mesh.frames.empty()) mesh.features = all;
+  if (mesh.features != all) refuse(path + ": has other vertices or faces than the first frame");
   mesh.frames.push_back(vertices);
 }
 
@@ -74,8 +80,7 @@ std::vector<Eigen::Vector3d> ends_of(const Mesh& mesh, const Corners& feature, s
 }
 
 std::string name_of(const Corners& feature) {
-  const char* const names[] = {"vertex", "edge", "face"};
-  std::string name = names[feature.size() - 1];
+  std::string name = feature.size() == 1 ? "vertex" : feature.size() == 2 ? "edge" : "face";
   for (const int corner : feature) name += " " + std::to_string(corner + 1);
   return name;
 }
@@ -121,26 +126,25 @@ std::vector<Touch> touches_in(const Mesh& first, const Mesh& second, std::size_t
 
 int main(int argc, char** argv) {
   Mesh meshes[2];
-  int mesh = 0;
+  std::size_t mesh = 0;
   for (int k = 1; k < argc; ++k) {
-    if (argv[k] == std::string("--")) {
-      if (++mesh > 1) refuse("expected one --, between the frames of two meshes");
-    } else {
-      add_frame(meshes[mesh], argv[k]);
-    }
+    const bool is_next = argv[k] == std::string("--");
+    if (is_next && ++mesh > 1) refuse("expected one --, between the frames of two meshes");
+    if (!is_next) add_frame(meshes[mesh], argv[k]);
   }
   const std::size_t frames[] = {meshes[0].frames.size(), meshes[1].frames.size()};
   const std::size_t most = std::max(frames[0], frames[1]);
   for (const std::size_t count : frames)
     if (most < 2 || (count != most && count != 1))
-      refuse(
-          "expected FRAMES... -- FRAMES..., equal numbers of frames of two meshes, or one frame of a mesh at "
-          "rest");
+      refuse("expected FRAME... -- FRAME..., as many frames of both meshes, or one of a mesh at rest");
+  bool any = false;
   for (std::size_t step = 0; step + 1 < most; ++step) {
     const std::vector<Touch> touches = touches_in(meshes[0], meshes[1], step);
     if (touches.empty()) continue;
+    any = true;
     const Touch& earliest = touches.front();
-    std::printf("%.9f: %s and %s (%zu in this step)\n", double(step) + earliest.time,
-                name_of(*earliest.first).c_str(), name_of(*earliest.second).c_str(), touches.size());
+    std::printf("%.9f: %s and %s (and %zu more in this step)\n", double(step) + earliest.time,
+                name_of(*earliest.first).c_str(), name_of(*earliest.second).c_str(), touches.size() - 1);
   }
+  if (!any) std::printf("no features begin to meet\n");
 }
