@@ -42,8 +42,8 @@ export function eventSentence({ structure, kind, roles, changes, nodes, names, d
       touch: () => [enters(ids.first[0]), " and ", enters(ids.second[0]), " touch at this instant only"],
     },
     crossings: () => {
-      const verb = kind === "touch" ? "touch" : "pass through each other" + (kind.startsWith("end") ? " at a bead" : "");
-      return ["the bonds ", ...list(ids.first, enters), ", and ", ...list(ids.second, enters), `, ${verb}`];
+      const verb = kind === "touch" ? "touches" : kind.startsWith("end") ? "passes at a bead through" : "passes through";
+      return ["the bond of ", ...list(ids.first), ` ${verb} that of `, ...list(ids.second)];
     },
     sorted: {
       interchange: () => [enters(ids.second[0]), " passes ", leaves(ids.first[0]), " along x", ranksText(changes)],
