@@ -198,7 +198,7 @@ std::vector<ImagePair> candidate_images(const Curves<Dimension>& curves, ShiftNu
   PairsOfImages found;
   near_images.find(Curves<Dimension>(halves), true, shifts, found);
   require_room_for_another(found.unclear.size() + found.overlapping.size());
-  std::vector<ImagePair> images = std::move(found.unclear);
+  std::vector<ImagePair> images(found.unclear.begin(), found.unclear.end());
   images.insert(images.end(), found.overlapping.begin(), found.overlapping.end());
   const auto range = [&](const ImagePair& image) {
     return distances.between(image.pair.first, image.pair.second, shifts.shift(image.shift));

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "motions/base/grow_little.h"
 #include "motions/base/interruption.h"
 #include "motions/curves/positions.h"
 #include "motions/scene/near_pairs.h"
@@ -186,19 +187,38 @@ std::vector<BeadId> Contacts<D>::state() const {
 template <int D>
 void Contacts<D>::start_step() {
   forget_images();
+  watched_.clear();
   find_pairs(NearBalls<D>::Resting::left_out, false, found_);
   disjoint_.hold_never(found_.proved);
   at_once_.clear();
-  gather_several();
-  watch_from(0, true);
+  watch_all(found_, true);
+  gather_several({});
   if (!at_once_.empty()) settle_now();
-  count_per_bead();
+  for (BeadId bead = 0; bead < bead_count(); ++bead) per_bead_.reset(bead);
+}
+
+// Only images whose certificates may fail get a place. The others are most of them, so images are taken in
+// blocks, and their memory is given back.
+template <int D>
+void Contacts<D>::watch_all(PairsOfImages& found, bool at_start) {
+  constexpr std::size_t most = 1U << 16U;
+  while (!found.unclear.empty()) {
+    const std::size_t count = std::min(most, found.unclear.size());
+    const auto last = found.unclear.begin() + static_cast<std::ptrdiff_t>(count);
+    const std::size_t first = watched_.size();
+    grow_little(watched_, first + count);
+    std::copy(found.unclear.begin(), last, watched_.begin() + static_cast<std::ptrdiff_t>(first));
+    found.unclear.erase(found.unclear.begin(), last);
+    watch_from(static_cast<std::uint32_t>(first), at_start);
+  }
 }
 
 template <int D>
-void Contacts<D>::watch_from(std::uint32_t place, bool at_start) {
-  for (; place < found_.unclear.size(); ++place) {
-    const ImagePair& image = image_at(place);
+void Contacts<D>::watch_from(std::uint32_t first, bool at_start) {
+  for (std::uint32_t place = first; place < watched_.size(); ++place) {
+    const ImagePair& image = watched_[place];
+    if (at_start)
+      for (const BeadId bead : {image.pair.first, image.pair.second}) per_bead_.add(bead);
     const bool in_contact = is_in_contact(image);
     if (image.shift != 0) {
       (in_contact ? overlapping_images_ : disjoint_images_).one_of_many(place, KnownAtStart::unknown) =
@@ -209,24 +229,52 @@ void Contacts<D>::watch_from(std::uint32_t place, bool at_start) {
       disjoint_.one_of_many(place, KnownAtStart::unknown) = disjoint(image.pair);
     }
   }
+  struct Kept {
+    std::uint32_t place;
+    CertificateHandle handle;
+    std::size_t at_once;  // the index in at_once_, if the certificate is violated
+    bool is_overlapping;
+  };
+  std::vector<Kept> kept;
+  const auto keep = [&](std::uint32_t place, CertificateHandle handle, bool is_overlapping) {
+    if (has_slot(handle) || handle == CertificateHandle::violated)
+      kept.push_back({place, handle, at_once_.size(), is_overlapping});
+  };
   const Curves<D> curves = motion_.curves();
   const auto begins = [&](std::uint32_t at, CertificateHandle handle) {
     InterruptionCheck::ask();
-    const ImagePair& image = image_at(at);
+    keep(at, handle, false);
+    const ImagePair& image = watched_[at];
     if (handle == CertificateHandle::violated || handle == CertificateHandle::zero) {
-      at_once_.push_back({image, begin, handle == CertificateHandle::violated ? at : no_place});
+      at_once_.push_back({image, begin, no_place});
     } else if (at_start && is_zero_at_start(curves, image)) {
       at_once_.push_back({image, touch, no_place});
     }
   };
   const auto ends = [&](std::uint32_t at, CertificateHandle handle) {
     InterruptionCheck::ask();
-    if (handle == CertificateHandle::violated) at_once_.push_back({image_at(at), end, at});
+    keep(at, handle, true);
+    if (handle == CertificateHandle::violated) at_once_.push_back({watched_[at], end, no_place});
   };
   disjoint_.watch_enqueued(begins);
   overlapping_.watch_enqueued(ends);
   disjoint_images_.watch_enqueued(begins);
   overlapping_images_.watch_enqueued(ends);
+  std::sort(kept.begin(), kept.end(), [](const Kept& a, const Kept& b) { return a.place < b.place; });
+  std::uint32_t place = first;
+  for (const Kept& one : kept) {
+    const ImagePair image = watched_[one.place];
+    watched_[place] = image;
+    if (one.handle == CertificateHandle::violated) {
+      at_once_[one.at_once].place = place;
+    } else if (image.shift != 0) {
+      (one.is_overlapping ? overlapping_images_ : disjoint_images_).set_place(one.handle, place);
+    } else {
+      (one.is_overlapping ? overlapping_ : disjoint_).set_place(one.handle, place);
+    }
+    ++place;
+  }
+  watched_.resize(place);
 }
 
 template <int D>
@@ -328,7 +376,7 @@ void Contacts<D>::find_of(std::span<const BeadId> beads) {
   at_once_.clear();
   for (const ImagePair& image : found.overlapping)
     if (!is_in_contact(image)) at_once_.push_back({image, begin, no_place});
-  std::vector<ImagePair> may_meet = found.overlapping;
+  std::vector<ImagePair> may_meet(found.overlapping.begin(), found.overlapping.end());
   may_meet.insert(may_meet.end(), found.unclear.begin(), found.unclear.end());
   std::sort(may_meet.begin(), may_meet.end());
   for (const BeadPair& pair : contacts_.pairs()) {
@@ -338,11 +386,11 @@ void Contacts<D>::find_of(std::span<const BeadId> beads) {
         at_once_.push_back({image, end, no_place});
     }
   }
-  const auto first = static_cast<std::uint32_t>(found_.unclear.size());
-  found_.unclear.insert(found_.unclear.end(), found.unclear.begin(), found.unclear.end());
   found_.may_repeat = found_.may_repeat || found.may_repeat;
-  gather_several();
-  watch_from(first, false);
+  std::set<BeadPair> at_once;  // pairs that change now by images that are not in question
+  for (const Happens& change : at_once_) at_once.insert(change.image.pair);
+  watch_all(found, false);
+  gather_several(at_once);
   settle_now();
 }
 
@@ -456,13 +504,11 @@ void Contacts<D>::forget_images() {
 }
 
 template <int D>
-void Contacts<D>::gather_several() {
+void Contacts<D>::gather_several(const std::set<BeadPair>& at_once) {
   if (!found_.may_repeat && several_.empty()) return;
-  std::set<BeadPair> at_once;  // pairs that change now by images that are not in question
-  for (const Happens& change : at_once_) at_once.insert(change.image.pair);
   for (auto& [key, several] : several_) several.places.clear();
   std::vector<std::pair<std::uint64_t, std::uint32_t>> places;
-  for (std::uint32_t place = 0; place < found_.unclear.size(); ++place)
+  for (std::uint32_t place = 0; place < watched_.size(); ++place)
     places.emplace_back(key_of(image_at(place).pair), place);
   std::sort(places.begin(), places.end());
   for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
@@ -502,14 +548,6 @@ void Contacts<D>::settle_several(SeveralImages& several, const BeadPair& pair) {
   } else if (!before && now) {
     record_contact(touch, {pair});
   }
-}
-
-template <int D>
-void Contacts<D>::count_per_bead() {
-  for (const ImagePair& image : found_.unclear)
-    for (const BeadId bead : {image.pair.first, image.pair.second}) per_bead_.add(bead);
-  for (const ImagePair& image : found_.unclear)
-    for (const BeadId bead : {image.pair.first, image.pair.second}) per_bead_.reset(bead);
 }
 
 template <int D>

@@ -30,6 +30,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -196,11 +197,13 @@ class Contacts final : public EditableBase {
   void find_pairs(typename NearBalls<Dimension>::Resting resting, bool list_overlapping,
                   PairsOfImages& found);
   [[nodiscard]] bool is_periodic() const { return motion_.curves().cell() != nullptr; }
-  /// Creates the certificates of the pairs from this place on.
-  void watch_from(std::uint32_t place, bool at_start);
+  /// Watches the images that may meet, and takes them out of `found`.
+  void watch_all(PairsOfImages& found, bool at_start);
+  /// Creates the certificates of the images from this place on, and keeps those that may fail.
+  void watch_from(std::uint32_t first, bool at_start);
   /// Watches whether the image at this place stays apart, or in contact.
   void watch(std::uint32_t place, bool in_contact, KnownAtStart birth = KnownAtStart::unknown);
-  [[nodiscard]] const ImagePair& image_at(std::uint32_t place) const { return found_.unclear[place]; }
+  [[nodiscard]] const ImagePair& image_at(std::uint32_t place) const { return watched_[place]; }
   [[nodiscard]] ImageContact image_contact(const ImagePair& image, int sign) const {
     return {{image.pair.first, image.pair.second, shifted_.to(image.shift), shifted_.from(image.shift)},
             sign};
@@ -212,7 +215,6 @@ class Contacts final : public EditableBase {
   /// Changes the set of contacts and records the change.
   void record_contact(Kind kind, const ImagePair& image);
   void settle_now();
-  void count_per_bead();
 
   // Pairs with several images.
 
@@ -227,8 +229,9 @@ class Contacts final : public EditableBase {
   /// Removes entries with at most one image in contact, and keeps that image in `contacts_`. Numbers the
   /// shifts anew if few of them are in use.
   void forget_images();
-  /// Finds the pairs that have several images in question or in contact.
-  void gather_several();
+  /// Finds the pairs that have several images in question or in contact. `at_once`: pairs that change now by
+  /// images that are not in question.
+  void gather_several(const std::set<BeadPair>& at_once);
   void settle_several(SeveralImages& several, const BeadPair& pair);
   [[nodiscard]] std::optional<std::string> fault_of_images(const Dyadic& time);
 
@@ -242,8 +245,9 @@ class Contacts final : public EditableBase {
   CertificateTable<ImageContact> disjoint_images_, overlapping_images_;  // of shifts other than 0
   ContactSet contacts_;
   std::unordered_map<std::uint64_t, SeveralImages> several_;
-  PairsOfImages found_;        // images that may meet in the present step
-  bool knows_images_ = false;  // not after changes from a log, which names pairs only
+  PairsOfImages found_;             // images that may meet in the present step, until they are watched
+  std::vector<ImagePair> watched_;  // images whose certificates may fail, by place
+  bool knows_images_ = false;       // not after changes from a log, which names pairs only
   std::vector<Happens> at_once_;
   CertificatesPerBead per_bead_;  // all zero between steps
 };

@@ -53,7 +53,7 @@ void Crossings::find_pairs() {
                    found_shifts, found_);
   orientation_.hold_never(found_.proved);
   near_.clear();
-  for (const std::vector<ImagePair>* pairs : {&found_.unclear, &found_.overlapping})
+  for (const ImagePairs* pairs : {&found_.unclear, &found_.overlapping})
     for (const ImagePair& image : *pairs)
       near_.push_back({image.pair, is_periodic_ ? found_shifts.shift(image.shift) : CellShift<3>{}, {}});
   std::sort(near_.begin(), near_.end());

@@ -27,6 +27,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <utility>
 #include <vector>
 
@@ -44,10 +45,13 @@ struct ImagePair {
   friend auto operator<=>(const ImagePair&, const ImagePair&) = default;
 };
 
+/// A deque gives memory back while its images are taken one after the other.
+using ImagePairs = std::deque<ImagePair>;
+
 struct PairsOfImages {
-  std::vector<ImagePair> unclear;      ///< may begin or end to meet in the step; each once
-  std::vector<ImagePair> overlapping;  ///< meet during the whole step; filled only on request
-  std::uint64_t proved = 0;            ///< pairs proved apart or in contact throughout, once in each piece
+  ImagePairs unclear;        ///< may begin or end to meet in the step; each once
+  ImagePairs overlapping;    ///< meet during the whole step; filled only on request
+  std::uint64_t proved = 0;  ///< pairs proved apart or in contact throughout, once in each piece
   /// Whether two images of one bead may be in contact with another at the same time.
   bool may_repeat = false;
 
