@@ -148,8 +148,9 @@ class Manual(unittest.TestCase):
         except Exception as error:
             self.skipTest(f"the examples need matplotlib ({error})")
         matplotlib.use("svg")
-        water = ROOT / "data" / "trajectories" / "enkephalin_water"
-        names = self.run_blocks("residence.md", 4, *((f"{water}{end}", f"{water.name}{end}") for end in (".xtc", ".gro")))
+        files = [ROOT / "data" / "trajectories" / f"{name}{end}" for name in ("enkephalin_water", "ions_chain", "lipids_rod")
+                 for end in (".xtc", ".gro")]
+        names = self.run_blocks("residence.md", 6, *((file, file.name) for file in files))
         times, number = names["coordination"](names["once"].intervals)
         self.assertTrue(np.all(np.diff(times) >= 0))
         self.assertEqual(number[times <= 0].tolist()[-1], names["once"].all["open_at_start"])
