@@ -518,7 +518,7 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
         "{}: names no molecules, and some consecutive beads are too far apart to tell which of their images "
         "are "
         "bonded, so beads are joined in the first frame and each moves alone from there to its nearest image "
-        "({} chains joins them in each frame)",
+        "({} chains joins all beads to one chain in each frame)",
         head.file, "--unwrap"_arg));
   if (notes.pieces_left > 0 && frames_with_cell_ > 0 && unwrap_ == Unwrap::chains)
     lines.push_back(fmt::format(
