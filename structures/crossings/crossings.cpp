@@ -38,7 +38,8 @@ Crossings::Crossings(Simulator& simulator, const MotionRef<3>& motion, ChainBond
       sides_y_(simulator, *this, index(), 2, points(), TouchPolicy::reported, whose()),
       sides_z_(simulator, *this, index(), 3, points(), TouchPolicy::reported, whose()),
       ends_(simulator, *this, index(), 4, points(), TouchPolicy::reported, whose()),
-      test_(points(), simulator.kernel(), statistics.stages) {}
+      test_(points(), simulator.kernel(), statistics.stages),
+      per_bead_(statistics.certificates, motion.bead_count()) {}
 
 void Crossings::build() {
   near_.clear();
@@ -88,8 +89,10 @@ void Crossings::start_step() {
   find_pairs();
   for (std::uint32_t place = 0; place < near_.size(); ++place) {
     InterruptionCheck::ask();
+    for (const BeadId bead : near_[place].features.points) per_bead_.add(bead);
     start(place);
   }
+  for (BeadId bead = 0; bead < bead_count(); ++bead) per_bead_.reset(bead);
   has_step_before_ = true;
 }
 

@@ -109,6 +109,7 @@ class Crossings final : public StructureBase {
   CertificateTable<BeyondEnds> ends_;
   FeaturePairTest test_;
   PairsOfImages found_;
+  CertificatesPerBead per_bead_;         // all zero between steps
   std::vector<NearPair> near_, before_;  // ascending: of this step, and of the step before
   bool has_step_before_ = false;
 };
