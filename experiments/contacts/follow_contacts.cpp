@@ -169,7 +169,7 @@ void check_times_ascend(const ContactsTask& task, const Scene& scene) {
 template <int D>
 void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report,
             const std::function<void(std::size_t, std::size_t)>& progress) {
-  const bool with_crossings = !refusal_of_crossings(scene);
+  const bool with_crossings = has_crossings(scene);
   ContactsRun<D> run(task, scene, report, radii_of(task, scene), scene.bead_groups(), with_crossings);
   ContactRule outer_rule = inner_rule_of(task, report);
   outer_rule.inner = outer_rule.outer = rule_of(task, report).outer;

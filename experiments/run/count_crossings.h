@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,10 +30,9 @@ struct CrossingCounts {
   [[nodiscard]] Json json() const;
 };
 
-/// Returns why crossings of the scene are not counted, as the end of a sentence, or nothing if they can be:
-/// the structure refuses the scene, or consecutive beads are too far apart to be bonded.
-[[nodiscard]] std::optional<std::string> refusal_of_crossings(const Scene& scene);
-/// Runs the crossings of the scene on one thread. refusal_of_crossings must have no reason.
+/// Returns whether the structure `crossings` accepts the scene.
+[[nodiscard]] bool has_crossings(const Scene& scene);
+/// Runs the crossings of the scene on one thread. has_crossings(scene) must be true.
 [[nodiscard]] CrossingCounts count_crossings(
     const Scene& scene, const std::function<void(std::size_t done, std::size_t total)>& progress);
 

@@ -165,11 +165,9 @@ void add_crossings(SceneInfo& info, const InfoOptions& options, std::unique_ptr<
   survey.periodic = survey.periodic && options.periodic;
   try {
     const Scene scene(std::move(frames), survey, radii);
-    if (scene.dimension() < 3 || scene.bonds().empty()) return;
-    if (const auto refusal = refusal_of_crossings(scene)) {
-      info.why_no_crossings = *refusal;
-      return;
-    }
+    if (scene.dimension() == 3 && scene.bonds().empty())
+      info.why_no_crossings = "no beads are known to be bonded";
+    if (!has_crossings(scene)) return;
     warn_of_cells("crossings", scene.lacks_images(), options, warn);
     info.crossings = count_crossings(scene, progress);
   } catch (const InputError& refusal) {

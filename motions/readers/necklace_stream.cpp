@@ -141,6 +141,31 @@ std::vector<Trajectory> heads_of(const FramesOpened& opened) {
 
 }  // namespace
 
+namespace {
+
+/// Returns whether consecutive beads look bonded, apart from breaks (ascending). If bonds were spread evenly
+/// in their bounding box, each would be within its own length of N others, with N the sum of 4/3 pi length^3
+/// over the volume. N is at most 2.4 for the backbones and C-alpha atoms of `data/`, and grows with the
+/// number of beads if these are anywhere.
+bool look_bonded(const Eigen::Matrix3Xd& beads, const std::vector<std::size_t>& breaks) {
+  constexpr double most = 64;
+  Eigen::Array3d low = beads.col(0), high = low;
+  double cubes = 0, longest = 0;
+  for (Eigen::Index b = 0; b + 1 < beads.cols(); ++b) {
+    if (std::binary_search(breaks.begin(), breaks.end(), static_cast<std::size_t>(b))) continue;
+    const double length = (beads.col(b + 1) - beads.col(b)).stableNorm();
+    cubes += length * length * length;
+    longest = std::max(longest, length);
+    for (const Eigen::Index end : {b, b + 1}) {
+      low = low.min(beads.col(end).array());
+      high = high.max(beads.col(end).array());
+    }
+  }
+  return !(4.19 * cubes > most * (high - low).max(longest).prod());
+}
+
+}  // namespace
+
 NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOptions& options)
     : opened_(open_frames(path, options)),
       time_step_(options.time_step),
@@ -176,6 +201,7 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
     const Eigen::Matrix3Xd& frame =
         heads_[n].frames.emplace_back(first.positions.middleCols(begin, bead_counts_[n]));
     if (opened_.chain_like) heads_[n].breaks = find_chain_breaks(frame, heads_[n].gaps);
+    chain_like_ = chain_like_ && look_bonded(frame, heads_[n].breaks);
     heads_[n].frame_numbers.push_back(first.stamp.number);
     begin += bead_counts_[n];
   }

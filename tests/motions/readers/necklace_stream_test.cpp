@@ -234,6 +234,23 @@ TEST(NecklaceStream, FollowsUnnamedMolecules) {
   }
 }
 
+// Without a cell too, atoms of a gas are not bonded. A coil of as many beads is.
+TEST(NecklaceStream, TellsAGasFromAChain) {
+  test::Random random(4);
+  std::string gas = "400\n\n", coil = gas;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  for (int b = 0; b < 400; ++b) {
+    for (double& x : at) x += test::uniform(random);
+    const auto line = [](double x, double y, double z) {
+      return "X " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    };
+    gas += line(20 * test::uniform(random), 20 * test::uniform(random), 20 * test::uniform(random));
+    coil += line(at.x(), at.y(), at.z());
+  }
+  EXPECT_FALSE(NecklaceStream(test::write_file("gas.xyz", gas), {}).chain_like());
+  EXPECT_TRUE(NecklaceStream(test::write_file("coil.xyz", coil), {}).chain_like());
+}
+
 // Beads on both sides of a missing loop, across a wall, are in one image.
 TEST(NecklaceStream, JoinsAnUnnamedChainAcrossAMissingLoop) {
   std::string text;
