@@ -55,6 +55,9 @@ class TrackedMoment {
   [[nodiscard]] Bernstein<TrackedDouble, 0> radius_sum(BeadId i, BeadId j) const {
     return {{seen(i, of_radius) + seen(j, of_radius) + first_radius_ + first_radius_}};
   }
+  [[nodiscard]] Bernstein<TrackedDouble, 0> weight(BeadId i) const {
+    return {{seen(i, of_weight) + first_weight_}};
+  }
   [[nodiscard]] Bernstein<TrackedDouble, 0> weight_difference(BeadId i, BeadId j) const {
     return {{between(i, j, of_weight)}};
   }
@@ -92,6 +95,8 @@ class TrackedMoment {
     }
     if (channels.radii)
       first_radius_ = during([&](int k) { return rounded(motion.radius(beads[0], k) * scale); });
+    if (channels.weights)
+      first_weight_ = during([&](int k) { return rounded(motion.weight(beads[0], k) * scale * scale); });
   }
 
   static TrackedDouble rounded(double x) {
@@ -128,7 +133,7 @@ class TrackedMoment {
   }
 
   Coefficients<TrackedDouble> seen_;  // rows of the beads, from the first; columns not requested are not set
-  TrackedDouble first_radius_;
+  TrackedDouble first_radius_, first_weight_;
 };
 
 static_assert(MotionView<TrackedMoment<BezierMotion<3, 1>>>);

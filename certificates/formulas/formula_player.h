@@ -45,6 +45,8 @@ class ViewedBeads final : public BeadSource<typename View::Number> {
     const BeadId j = beads_.empty() ? step->b : beads_[step->b];
     Coefficients<Number>& value = values[step->slot];
     switch (step->kind) {
+      case Kind::weight:
+        return set(value, view_.weight(i));
       case Kind::weight_difference:
         return set(value, view_.weight_difference(i, j));
       case Kind::radius_difference:
@@ -93,6 +95,7 @@ template <class Number>
     };
     switch (step.kind) {
       case Kind::centre_difference:
+      case Kind::weight:
       case Kind::weight_difference:
       case Kind::radius_difference:
       case Kind::radius_sum:

@@ -54,6 +54,9 @@ TrackedDouble value_at_moment(const RecordedFormula& formula, const View& view) 
       }
       case Kind::next_coordinate:
         break;
+      case Kind::weight:
+        value = view.weight(step.a).scaled[0];
+        break;
       case Kind::weight_difference:
         value = view.weight_difference(step.a, step.b).scaled[0];
         break;

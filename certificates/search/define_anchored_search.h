@@ -45,6 +45,7 @@ class AnchoredView {
                                                                                           BeadId j) const {
     return view_.difference(i, j);
   }
+  [[nodiscard, gnu::always_inline]] auto weight(BeadId i) const { return view_.weight(i); }
   [[nodiscard, gnu::always_inline]] auto weight_difference(BeadId i, BeadId j) const {
     return view_.weight_difference(i, j);
   }

@@ -100,6 +100,7 @@ class FormulaProbe {
   constexpr BernsteinVector<LengthPower, degree, dimension> difference(BeadId, BeadId) const {
     return lengths<dimension>();
   }
+  constexpr auto weight(BeadId i) const { return weight_difference(i, i); }
   constexpr auto weight_difference(BeadId, BeadId) const {
     static_assert(channels.weights,
                   "the formula asks for weights: say so, `static constexpr bool uses_weights = true;`");

@@ -75,6 +75,10 @@ class alignas(32) Lanes {
                          0x7fffffffffffffffLL};
     return reinterpret_cast<Vector>(reinterpret_cast<Mask>(a.v) & magnitude);
   }
+  [[gnu::always_inline]] static Lanes sqrt(const Lanes& a) {
+    return Vector{__builtin_sqrt(a.v[0]), __builtin_sqrt(a.v[1]), __builtin_sqrt(a.v[2]),
+                  __builtin_sqrt(a.v[3])};
+  }
   /// Transposes four rows of four numbers: lane i of the k-th result is number k of row i.
   [[gnu::always_inline]] static std::array<Lanes, 4> transposed(const double* row0, const double* row1,
                                                                 const double* row2, const double* row3) {

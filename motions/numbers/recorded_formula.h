@@ -14,13 +14,14 @@
 
 namespace kds {
 
-/// One operation of a recorded formula. In the first six kinds, `a` and `b` are beads. In the other kinds
+/// One operation of a recorded formula. In the first seven kinds, `a` and `b` are beads. In the other kinds
 /// they are the slots of the operands; while the formula is being recorded, they are the numbers of the
 /// steps that compute the operands.
 struct FormulaStep {
   enum class Kind : std::uint8_t {
     centre_difference,  ///< its first coordinate; the next steps are the other coordinates
     next_coordinate,
+    weight,  ///< of a
     weight_difference,
     radius_difference,
     radius_sum,

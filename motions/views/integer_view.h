@@ -107,6 +107,9 @@ class ExactView {
     }
     return result;
   }
+  [[nodiscard]] Bernstein<Number, degree> weight(BeadId i) const {
+    return polynomial([&](int k) -> Number { return square(motion_.weight(i, k)); });
+  }
   [[nodiscard]] Bernstein<Number, degree> weight_difference(BeadId i, BeadId j) const {
     return polynomial(
         [&](int k) -> Number { return square(motion_.weight(i, k)) - square(motion_.weight(j, k)); });
@@ -195,6 +198,7 @@ class MomentView {
     for (std::size_t axis = 0; axis < result.size(); ++axis) result[axis].scaled[0] = at_moment(moving[axis]);
     return result;
   }
+  [[nodiscard]] Bernstein<Integer, 0> weight(BeadId i) const { return squares(moving_.weight(i)); }
   [[nodiscard]] Bernstein<Integer, 0> weight_difference(BeadId i, BeadId j) const {
     return squares(moving_.weight_difference(i, j));
   }

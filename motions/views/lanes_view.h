@@ -65,6 +65,18 @@ class LanesView {
       result[static_cast<std::size_t>(axis)] = difference(i, j, axis, length_);
     return result;
   }
+  [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> weight(BeadId i) const
+      requires(channels.weights) {
+    Bernstein<Lanes, degree> result;
+    for (int k = 0; k <= degree; ++k) {
+      const auto index = static_cast<std::size_t>(k);
+      const Lanes& w = control_[i][index][dimension];
+      // A ball may be larger than the distances between beads, so its weight counts as a length.
+      length_ = Lanes::max(length_, Lanes::sqrt(Lanes::abs(w)) * Lanes(1 + 0x1p-50));
+      result.scaled[index] = Lanes(static_cast<double>(binomial(degree, k))) * w;
+    }
+    return result;
+  }
   [[nodiscard, gnu::always_inline]] Bernstein<Lanes, degree> weight_difference(BeadId i, BeadId j) const
       requires(channels.weights) {
     return difference(i, j, dimension, weight_);

@@ -38,10 +38,10 @@ struct Channels {
 };
 inline constexpr Channels all_channels{true, true};
 
-/// Besides difference(i, j), a view has weight_difference(i, j), radius_difference(i, j) and radius_sum(i,
-/// j), polynomials of the same degree, if the channels were requested. Over a lifted motion it has
-/// lift_difference(i, j), the difference of |x|^2 minus the weight (lifted_motion.h); weight_difference is
-/// available only at the ends of the step there.
+/// Besides difference(i, j), a view has weight(i), weight_difference(i, j), radius_difference(i, j) and
+/// radius_sum(i, j), polynomials of the same degree, if the channels were requested. Over a lifted motion it
+/// has lift_difference(i, j), the difference of |x|^2 minus the weight (lifted_motion.h); weights and their
+/// differences are available only at the ends of the step there.
 template <class V>
 concept MotionView = requires(const V& view, BeadId i, BeadId j) {
   typename V::Number;
@@ -79,25 +79,20 @@ class DoubleView {
     }
     return result;
   }
+  [[nodiscard]] Bernstein<double, degree> weight(BeadId i) const {
+    return polynomial(weight_, [&](int k) { return motion_.weight(i, k); });
+  }
   /// Returns the weight of i minus the weight of j.
   [[nodiscard]] Bernstein<double, degree> weight_difference(BeadId i, BeadId j) const {
-    Bernstein<double, degree> result;
-    const int own = degree_of(motion_);
-    result.set_degree(own);
-    for (int k = 0; k <= own; ++k) {
-      const double d = motion_.weight(i, k) - motion_.weight(j, k);
-      weight_ = std::max(weight_, std::abs(d));
-      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(own, k)) * d;
-    }
-    return result;
+    return polynomial(weight_, [&](int k) { return motion_.weight(i, k) - motion_.weight(j, k); });
   }
 
   /// Returns the radius of i minus the radius of j.
   [[nodiscard]] Bernstein<double, degree> radius_difference(BeadId i, BeadId j) const {
-    return radii([&](int k) { return motion_.radius(i, k) - motion_.radius(j, k); });
+    return polynomial(length_, [&](int k) { return motion_.radius(i, k) - motion_.radius(j, k); });
   }
   [[nodiscard]] Bernstein<double, degree> radius_sum(BeadId i, BeadId j) const {
-    return radii([&](int k) { return motion_.radius(i, k) + motion_.radius(j, k); });
+    return polynomial(length_, [&](int k) { return motion_.radius(i, k) + motion_.radius(j, k); });
   }
 
   [[nodiscard]] Bernstein<double, 1> lift_difference(BeadId i, BeadId j) const requires(lifted<M>) {
@@ -114,22 +109,22 @@ class DoubleView {
     return result;
   }
 
-  /// Returns the M of the error bound: no difference or sum returned so far is larger, and no weight
-  /// difference is larger than its square.
+  /// Returns the M of the error bound: no difference or sum returned so far is larger, and no weight or
+  /// weight difference is larger than its square.
   [[nodiscard]] double largest_length() const {
     return weight_ <= length_ * length_ ? length_ : std::max(length_, std::sqrt(weight_));
   }
 
  private:
   template <std::invocable<int> Value>
-  [[nodiscard]] Bernstein<double, degree> radii(Value value) const {
+  [[nodiscard]] Bernstein<double, degree> polynomial(double& largest, Value value) const {
     Bernstein<double, degree> result;
     const int own = degree_of(motion_);
     result.set_degree(own);
     for (int k = 0; k <= own; ++k) {
-      const double r = value(k);
-      length_ = std::max(length_, std::abs(r));
-      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(own, k)) * r;
+      const double x = value(k);
+      largest = std::max(largest, std::abs(x));
+      result.scaled[static_cast<std::size_t>(k)] = static_cast<double>(binomial(own, k)) * x;
     }
     return result;
   }
@@ -180,6 +175,9 @@ class TrackedView {
     }
     return result;
   }
+  [[nodiscard]] Bernstein<TrackedDouble, degree> weight(BeadId i) const {
+    return polynomial([&](int k) { return scaled_twice(motion_.weight(i, k)); });
+  }
   [[nodiscard]] Bernstein<TrackedDouble, degree> weight_difference(BeadId i, BeadId j) const {
     return polynomial([&](int k) { return scaled_twice(motion_.weight(i, k) - motion_.weight(j, k)); });
   }
@@ -216,7 +214,7 @@ class TrackedView {
     return result;
   }
 
-  /// Returns a rounded difference or sum of two inputs, times the scale. Sums are exact if they are
+  /// Returns an input, or a rounded difference or sum of two, times the scale. Sums are exact if they are
   /// subnormal, and scaling is exact except for underflow.
   [[nodiscard]] TrackedDouble scaled(double rounded) const { return from_rounded(rounded * scale_); }
   /// Like `scaled`, but times the square of the scale. This square may not be representable as a double.
@@ -247,6 +245,7 @@ class MagnitudeView {
     for (auto& coordinate : result) coordinate = polynomial(1);
     return result;
   }
+  [[nodiscard]] Bernstein<Number, degree> weight(BeadId) const { return polynomial(2); }
   [[nodiscard]] Bernstein<Number, degree> weight_difference(BeadId, BeadId) const { return polynomial(2); }
   [[nodiscard]] Bernstein<Number, degree> radius_difference(BeadId, BeadId) const { return polynomial(1); }
   [[nodiscard]] Bernstein<Number, degree> radius_sum(BeadId, BeadId) const { return polynomial(1); }
@@ -301,6 +300,9 @@ class RecordingView {
       kind = Kind::next_coordinate;
     }
     return result;
+  }
+  [[nodiscard]] Bernstein<Recorded, degree> weight(BeadId i) const requires(channels.weights) {
+    return of_beads<degree>(Kind::weight, i, i);
   }
   [[nodiscard]] Bernstein<Recorded, degree> weight_difference(BeadId i, BeadId j) const
       requires(channels.weights) {
