@@ -29,6 +29,15 @@ inline constexpr Channels channels_of = [] {
   return channels;
 }();
 
+/// Whether a function is defined in lifted motion, where weights between frames are not curves; by default
+/// true if the function uses no radii. A type that uses weights beyond lifts declares `static constexpr bool
+/// suits_lifted_motion = false`.
+template <class F>
+inline constexpr bool suits_lifted_motion = [] {
+  if constexpr (requires { F::suits_lifted_motion; }) return F::suits_lifted_motion;
+  return !channels_of<F>.radii;
+}();
+
 /// The number of beads of a function.
 template <class F>
 inline constexpr std::size_t bead_arity = std::tuple_size_v<decltype(F{}.beads)>;

@@ -83,8 +83,8 @@ class CertificateSearch : public detail::TakesConstants<Certificate> {
 };
 
 /// Returns the search of a certificate type over any motion of the dimension. Throws std::invalid_argument if
-/// the motion is lifted and the certificate uses radii, or if the function's degree over the motion is too
-/// high. The search throws std::logic_error if the motion's degree changes later.
+/// the motion is lifted and the certificate does not suit it, or if the function's degree over the motion is
+/// too high. The search throws std::logic_error if the motion's degree changes later.
 template <class Certificate, int Dimension>
 [[nodiscard]] std::unique_ptr<CertificateSearch<Certificate>> search_over(const MotionRef<Dimension>& motion);
 

@@ -342,7 +342,7 @@ std::unique_ptr<CertificateSearch<Certificate>> filtered_search(const MotionRef<
       [&]<class C>(std::type_identity<C>) -> std::unique_ptr<CertificateSearch<Certificate>> {
     return std::make_unique<SearchInLanes<Certificate, C>>(motion);
   };
-  if constexpr (Dimension > 1 && channels_of<Certificate>.weights && !channels_of<Certificate>.radii) {
+  if constexpr (Dimension > 1 && channels_of<Certificate>.weights && suits_lifted_motion<Certificate>) {
     if (motion.is_lifted()) return in_lanes(std::type_identity<LiftedCurves<Dimension>>{});
   }
   const int degree = motion.degree();  // 1 for lifted motion, whose centres move linearly
@@ -373,8 +373,8 @@ std::unique_ptr<CertificateSearch<Certificate>> search_over(const MotionRef<Dime
                 "kds::Constant<1>, a kds::ConstantVector, ..., not a number");
   static_assert(!AddsUnlikePowers<Certificate, Dimension>,
                 "the formula adds unlike powers of length: all terms of a sum need the same");
-  if (motion.is_lifted() && channels_of<Certificate>.radii)
-    throw std::invalid_argument("radii mean nothing in lifted motion");
+  if (motion.is_lifted() && !suits_lifted_motion<Certificate>)
+    throw std::invalid_argument("radii and single weights mean nothing in lifted motion");
   if constexpr (NeedsAnchors<Certificate>) {
     return std::make_unique<detail::AnchoredSearch<Certificate, Dimension>>(motion);
   } else {
