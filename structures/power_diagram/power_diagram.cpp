@@ -157,6 +157,13 @@ std::optional<std::string> PowerDiagram<Dimension>::audit(const Dyadic& time) {
 }
 
 template <int Dimension>
+void PowerDiagram<Dimension>::set_follower(CellFollower* follower) {
+  if (follower_ != nullptr) throw std::logic_error("a power diagram has one follower");
+  follower_ = follower;
+  parts_->state.triangulation.set_follower(follower);
+}
+
+template <int Dimension>
 std::vector<BeadId> PowerDiagram<Dimension>::neighbors(BeadId bead) const {
   const Simulator::ComputeScope scope(parts_->state.simulator);
   auto& state = parts_->state;
@@ -224,12 +231,14 @@ template <int Dimension>
 void PowerDiagram<Dimension>::insert(BeadId bead, BeadId near) {
   const Simulator::ComputeScope scope(parts_->state.simulator);
   parts_->editor.insert(bead, near);
+  if (follower_ != nullptr) follower_->edited();
 }
 
 template <int Dimension>
 void PowerDiagram<Dimension>::erase(BeadId bead) {
   const Simulator::ComputeScope scope(parts_->state.simulator);
   parts_->editor.erase(bead);
+  if (follower_ != nullptr) follower_->edited();
 }
 
 template <int Dimension>

@@ -32,6 +32,7 @@
 #include "kds/kinetic_structure.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/power_diagram/diagram_events.h"
+#include "structures/triangulation/cell_follower.h"
 #include "structures/triangulation/cells.h"
 
 namespace kds {
@@ -71,6 +72,10 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   [[nodiscard]] std::uint64_t tie_of(unsigned table, std::uint32_t place) const override;
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
+
+  /// From now on, tells `follower` of all cells that change, and after each edit by `insert` or `erase`. The
+  /// follower must not be destroyed before the run ends. Throws std::logic_error if there is a follower.
+  void set_follower(CellFollower* follower);
 
   /// Returns the beads whose cells share a facet with the cell of `bead` now, ascending. Edges of the
   /// triangulation join them to `bead`, so ties are resolved as the diagram has them. A hidden bead has no
@@ -144,6 +149,7 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   void take_up(std::span<const BeadId> beads) override;
 
   std::unique_ptr<Parts> parts_;
+  CellFollower* follower_ = nullptr;
 };
 
 static_assert(EditableStructure<PowerDiagram<2>>);

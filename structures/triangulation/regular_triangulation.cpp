@@ -31,6 +31,7 @@ template <int Dimension>
 StaticTriangulation<Dimension> RegularTriangulation<Dimension>::build_bare(const Eigen::Matrix3Xd& centers,
                                                                            std::span<const double> weights) {
   mirrored_ = points_wait_ = false;
+  tell_of_all();
   cgal_->forget_changes();
   auto& triangulation = cgal_->triangulation;
   triangulation.clear();
@@ -81,6 +82,7 @@ void RegularTriangulation<Dimension>::assign(std::size_t beads, std::span<const 
     if (cgal_->vertex[b] != typename Cgal::VertexHandle()) points[b] = cgal_->vertex[b]->point();
   }
   mirrored_ = false;
+  tell_of_all();
   cgal_->forget_changes();
   triangulation.clear();
   auto& tds = triangulation.tds();

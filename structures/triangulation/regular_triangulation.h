@@ -22,6 +22,7 @@
 
 #include "motions/base/bead.h"
 #include "motions/curves/snapshot.h"
+#include "structures/triangulation/cell_follower.h"
 #include "structures/triangulation/cells.h"
 
 namespace kds {
@@ -43,6 +44,9 @@ class RegularTriangulation {
   ~RegularTriangulation();
   RegularTriangulation(const RegularTriangulation&) = delete;
   RegularTriangulation& operator=(const RegularTriangulation&) = delete;
+
+  /// From now on, tells `follower` of all cells that change. It must live until the last change.
+  void set_follower(CellFollower* follower) { follower_ = follower; }
 
   /// Builds the triangulation by CGAL from doubles. Returns the hidden beads and the dimension, but no cells.
   StaticTriangulation<Dimension> build(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
@@ -176,6 +180,12 @@ class RegularTriangulation {
   [[nodiscard]] Cgal& up_to_date() const;
   [[nodiscard]] Sample sample_mirror(const Eigen::Matrix3Xd& centers, std::span<const double> weights,
                                      std::size_t stride, std::uint64_t turn) const;
+  void tell(std::span<const CellId> gone, std::span<const CellId> made, bool is_flip = true) {
+    if (follower_ != nullptr) follower_->exchanged(gone, made, is_flip);
+  }
+  void tell_of_all() {
+    if (follower_ != nullptr) follower_->replaced_all();
+  }
   // Flips.
   [[nodiscard]] CellId new_cell();
   void free_cell(CellId id);
@@ -190,6 +200,7 @@ class RegularTriangulation {
   }
 
   std::unique_ptr<Cgal> cgal_;
+  CellFollower* follower_ = nullptr;
   std::vector<Cell> cells_;
   std::vector<char> live_;
   std::vector<CellId> free_;             // slots that are not live

@@ -126,6 +126,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::replace(std::span<const Cel
   for (const CellId id : ids) {
     for (const BeadId b : cells_[id].vertex) add_cells(b, 1);
   }
+  tell(old, ids, false);
   return ids;
 }
 
@@ -186,6 +187,7 @@ std::vector<CellId> RegularTriangulation<Dimension>::mirror_changes() {
   }
   cgal_->mirror(made, cells_);
   count_cells();
+  tell_of_all();
   return ids;
 }
 

@@ -96,6 +96,7 @@ std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dim
     border(made[n], i, there, there.vertex_index(here.vertex[static_cast<std::size_t>(index[n])]));
     for (std::size_t m = 0; m < n; ++m) join(made[n], index[m], made[m], index[n]);
   }
+  tell(std::array{cell, other}, made);
   return made;
 }
 
@@ -123,6 +124,7 @@ std::array<CellId, 2> RegularTriangulation<Dimension>::flip_edge(CellId cell, in
     for (std::size_t m = 0; m < 2; ++m) border(made[n], index[m], there[m], there[m].vertex_index(gone));
   }
   join(made[0], j, made[1], i);
+  tell(std::array{cell, made[0], made[1]}, made);
   return made;
 }
 
@@ -149,12 +151,14 @@ auto RegularTriangulation<Dimension>::flip_in(CellId cell, BeadId bead) -> Star 
     for (int m = 0; m < k; ++m)
       join(made[static_cast<std::size_t>(k)], m, made[static_cast<std::size_t>(m)], k);
   }
+  tell(std::array{cell}, made);
   return made;
 }
 
 template <int Dimension>
 CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
   const Cell here = cells_[cell];
+  const Star old = star(cell, i);
   const BeadId gone = here.vertex[static_cast<std::size_t>(i)];
   // The cells share all vertices but one, which is the vertex beyond the facet of each.
   const BeadId apex = here.apex[i == 0 ? 1 : 0];
@@ -170,6 +174,7 @@ CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
     border(cell, k, cells_[beside], cells_[beside].vertex_index(gone));
     free_cell(beside);
   }
+  tell(old, std::array{cell});
   return cell;
 }
 
