@@ -31,7 +31,7 @@ using ReplayElement = std::array<BeadId, 5>;
 struct ReplayLayer {
   std::string_view name;  ///< in static storage
   std::size_t arity = 1;  ///< number of ids of an element, at most 5
-  /// The first ids of an element are its place, one or two of them. A layer has at most one element at a
+  /// The first ids of an element are its place. A layer has at most one element at a
   /// place, so an element that is added there replaces the one before.
   std::size_t place_ids = 1;
 };
@@ -72,6 +72,8 @@ struct ReplayNode {
 ///   cages     node, then the beads of the node's basis; unused entries last
 ///   edges     the two beads of an edge, ascending
 ///   hidden    a bead without a cell in the power diagram
+///   balls     a bead of the dual complex; links, triangles, tetrahedra: its simplices of two to four beads,
+///             ascending
 ///   contacts  the two beads of a pair in contact, ascending
 ///   supports  node, side (low, high of the first direction, then of the next), the bead that holds the side
 ///   ends      end (low, high of the first axis, then of the next), the bead there

@@ -12,9 +12,10 @@ namespace kds {
 
 namespace {
 
-std::uint64_t place_key(const ReplayLayer& layer, const ReplayElement& element) {
-  const std::uint64_t first = element[0];
-  return layer.place_ids == 1 ? first : (first << 32U) | element[1];
+/// Returns the first ids of the element, which are its place; the others are no_bead.
+ReplayElement place_of(const ReplayLayer& layer, ReplayElement element) {
+  std::fill(element.begin() + static_cast<std::ptrdiff_t>(layer.place_ids), element.end(), no_bead);
+  return element;
 }
 
 /// Appends the ids of elements, which are sorted.
@@ -49,7 +50,7 @@ void ReplayRecorder::begin() {
     for (std::size_t l = 0; l < elements.size(); ++l) {
       Layer& layer = structures_[s].layers[l];
       for (const ReplayElement& element : elements[l])
-        now_[s][l].emplace(place_key(layer.layer, element), element);
+        now_[s][l].emplace(place_of(layer.layer, element), element);
       append_ids(layer.layer, elements[l], layer.initial);
     }
     add_spheres(s, true);
@@ -130,7 +131,7 @@ auto ReplayRecorder::changes_to_now(std::size_t structure) -> std::vector<LayerC
     Elements& before = now_[structure][l];
     Elements after;
     for (const ReplayElement& element : elements[l]) {
-      const std::uint64_t place = place_key(layer, element);
+      const ReplayElement place = place_of(layer, element);
       after.emplace(place, element);
       const auto old = before.find(place);
       if (old == before.end() || old->second != element) changes[l].added.push_back(element);
@@ -150,7 +151,7 @@ auto ReplayRecorder::changes_by(std::size_t structure, const std::vector<ReplayE
   for (const ReplayEdit& edit : edits) {
     const ReplayLayer& layer = structures_[structure].layers[edit.layer].layer;
     Elements& now = now_[structure][edit.layer];
-    const std::uint64_t place = place_key(layer, edit.element);
+    const ReplayElement place = place_of(layer, edit.element);
     const auto old = now.find(place);
     const bool is_known = old != now.end();
     if (edit.adds ? is_known && old->second == edit.element : !is_known)

@@ -81,7 +81,14 @@ class ReplayRecorder final : public EventListener {
   [[nodiscard]] std::vector<ReplayElement> elements(std::size_t structure, std::size_t layer) const;
 
  private:
-  using Elements = std::unordered_map<std::uint64_t, ReplayElement>;  // elements, by their place
+  struct HashOfPlace {
+    std::size_t operator()(const ReplayElement& place) const {
+      std::uint64_t hash = 0;
+      for (const BeadId id : place) hash = (hash ^ id) * 0x9e3779b97f4a7c15U;
+      return static_cast<std::size_t>(hash ^ hash >> 32U);
+    }
+  };
+  using Elements = std::unordered_map<ReplayElement, ReplayElement, HashOfPlace>;  // elements, by their place
   struct LayerChange {
     std::vector<ReplayElement> removed, added;
   };
