@@ -116,13 +116,14 @@ void KineticRun::plan(std::function<void()> addition) {
 
 void KineticRun::make_by_name() {
   const FloatingPointScope to_nearest;
-  const std::vector<std::string> names =
+  std::vector<std::string> names =
       options_.structures.empty() && options_.by_default ? default_structures(scene_) : options_.structures;
-  for (const std::string& name : names) {
-    const StructureSpec* spec = structure_registry().find(name);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const StructureSpec* spec = structure_registry().find(names[i]);
     if (spec == nullptr)
-      throw StructureRefusal(name, "there is no such structure; expected " + names_of_all());
-    if (const auto reason = spec->refusal(scene_)) throw StructureRefusal(name, *reason);
+      throw StructureRefusal(names[i], "there is no such structure; expected " + names_of_all());
+    if (const auto reason = spec->refusal(scene_)) throw StructureRefusal(names[i], *reason);
+    if (!spec->stands_on.empty()) names.push_back(spec->stands_on);
   }
   const auto is_named = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -131,10 +132,22 @@ void KineticRun::make_by_name() {
     if (!is_named(name)) throw StructureRefusal(name, "is to be of some beads only, and is not in the run");
   for (const StructureSpec& spec : structure_registry().all()) {  // in the registry's order
     if (!is_named(spec.name)) continue;
-    add_made(spec.make(simulator(), scene_, *ref_, options_.settings));
+    StructureSettings settings = options_.settings;
+    if (!spec.stands_on.empty()) {
+      settings.base = find_made(spec.stands_on);
+      if (settings.base == nullptr)
+        throw std::logic_error(spec.name + " is made before " + spec.stands_on + ", on which it stands");
+    }
+    add_made(spec.make(simulator(), scene_, *ref_, settings));
     if (const auto only = options_.only.find(spec.name); only != options_.only.end())
       leave_out_others(running_.size() - 1, only->second);
   }
+}
+
+KineticStructure* KineticRun::find_made(std::string_view name) const {
+  const auto found = std::find_if(kinetic_.begin(), kinetic_.end(),
+                                  [&](const KineticStructure* made) { return made->name() == name; });
+  return found == kinetic_.end() ? nullptr : *found;
 }
 
 void KineticRun::add_made(std::unique_ptr<RunningStructure> structure) {

@@ -224,6 +224,7 @@ class KineticRun {
   /// Makes the motion, the simulator and the structures, as they are before the first step.
   void make();
   void make_by_name();
+  [[nodiscard]] KineticStructure* find_made(std::string_view name) const;
   void add_made(std::unique_ptr<RunningStructure> structure);
   void leave_out_others(std::size_t structure, std::span<const BeadId> beads);
   [[nodiscard]] bool can_enter() const;

@@ -132,12 +132,17 @@ struct StructureSettings {
   std::optional<int> directions{};
   /// For contacts: the distance at which beads are in contact. No value: balls with the scene's radii meet.
   std::optional<ContactDistance> contact_distance{};
+  /// Set by the run for a structure that stands on another one (StructureSpec::stands_on).
+  KineticStructure* base = nullptr;
 };
 
 struct StructureSpec {
   std::string name;
   std::string about = {};        ///< what is maintained, for `kds help structures`
   std::string net_changes = {};  ///< what its elements are, if it has any
+  /// The structure on which this one stands, which must have a lower `order`. A run that has this structure
+  /// has the other one too, with the same beads. Empty if there is none.
+  std::string stands_on = {};
   /// Determines the order of structures, both in acting at one time and in reports: ascending, then by name.
   /// The framework's own structures have 10 to 45.
   int order = 100;
