@@ -86,6 +86,7 @@ Scene::Scene(PushedFrames frames) : radii_(std::move(frames.radii)), has_radii_(
           fmt::format("bead {}: expected a radius that is not negative, found {}", bead, radii_[bead]));
   check_radii(radii_);
   radii_.resize(beads, 0);
+  set_probe(frames.probe);
   periodic_ = frames.cell.has_value();
   if (periodic_ && (dimension < 2 ||
                     (dimension == 2 && !(frames.cell->col(2).isZero(0) && frames.cell->row(2).isZero(0)))))
@@ -114,6 +115,14 @@ Scene::Scene(Instance instance, std::vector<double> radii)
   steps_ = std::move(step);
 }
 
+void Scene::set_probe(double length) {
+  probe_ = length;
+  for (std::size_t bead = 0; bead < radii_.size(); ++bead)
+    if (const double radius = radii_[bead] + probe_; !std::isfinite(radius * radius))
+      throw InputError(
+          fmt::format("bead {}: its radius and the probe, {}, are too large to be squared", bead, radius));
+}
+
 void Scene::push(std::span<const double> coordinates, std::optional<double> picoseconds,
                  const std::optional<Cell>& cell) {
   if (pushed_ == nullptr) throw std::logic_error("a frame is pushed to a scene that has frames of its own");
@@ -130,6 +139,7 @@ std::unique_ptr<const Scene> Scene::over(std::unique_ptr<FrameSource> frames) co
   scene->bead_groups_ = bead_groups_;
   scene->radii_ = radii_;
   scene->has_radii_ = has_radii_;
+  scene->probe_ = probe_;
   scene->truncated_ = truncated_;
   scene->periodic_ = periodic_;
   scene->plane_ = plane_;
@@ -175,7 +185,9 @@ bool Scene::equal_radii() const {
 }
 
 double Scene::weight(BeadId bead, int k) const {
-  return !has_radii_ && steps_->has_weights() ? steps_->weight(bead, k) : radii_[bead] * radii_[bead];
+  if (!has_radii_ && steps_->has_weights()) return steps_->weight(bead, k);
+  const double reach = radii_[bead] + probe_;
+  return reach * reach;
 }
 
 Eigen::Matrix3Xd Scene::centers(std::size_t frame) const {

@@ -38,6 +38,7 @@ struct PushedFrames {
   /// accepts it. Necklaces are made whole in the first frame, unless consecutive beads are as far apart as in
   /// a fluid. Each bead then moves to the image nearest to its place in the frame before.
   std::optional<Cell> cell = std::nullopt;
+  double probe = 0;  ///< Scene::set_probe
 };
 
 class Scene {
@@ -61,6 +62,12 @@ class Scene {
   /// Makes a scene whose frames are pushed one by one. Only the frames of the latest step are in memory.
   /// Throws InputError if there are no beads, or if a radius or the dimension is invalid.
   explicit Scene(PushedFrames frames);
+
+  /// Makes the weight of each bead the square of its radius plus `length`, a finite number that is not
+  /// negative: power diagrams then use balls enlarged by a probe. Radii stay as they are. Must be called
+  /// before motions are loaded. Throws InputError if a radius is too large.
+  void set_probe(double length);
+  [[nodiscard]] double probe() const { return probe_; }
 
   /// Appends a frame: the coordinates of bead 0, then those of bead 1 and so on, `dimension` numbers each.
   /// `cell` is its cell, if it has another one than the frame before. Throws InputError, and ignores the
@@ -159,8 +166,12 @@ class Scene {
   template <Motion M>
   void set_control_points(M& motion) const {
     if constexpr (M::degree == 1) {
-      if (const std::optional<LinearEnds> ends = steps_->ends())
-        return motion.set_ends(ends->start, ends->end, radii_.data());
+      if (const std::optional<LinearEnds> ends = steps_->ends()) {
+        motion.set_ends(ends->start, ends->end, radii_.data());
+        for (BeadId b = 0; b < bead_count() && probe_ > 0; ++b)
+          for (int k = 0; k <= 1; ++k) motion.set_weight(b, k, weight(b, k));
+        return;
+      }
     }
     const int last = degree();
     for (BeadId b = 0; b < bead_count(); ++b) {
@@ -192,6 +203,7 @@ class Scene {
   BeadGroups bead_groups_;               // empty, or one per bead
   std::vector<double> radii_;
   bool has_radii_ = true;
+  double probe_ = 0;
   bool truncated_ = false;
   bool periodic_ = false;
   std::string lacks_images_;
