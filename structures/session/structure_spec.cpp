@@ -42,6 +42,7 @@ StructureRegistry& structure_registry() {
     add_point_structures(own);
     add_hierarchy_structures(own);
     add_ball_structures(own);
+    add_dual_structures(own);
     add_bond_structures(own);
     return own;
   }();

@@ -278,6 +278,97 @@ std::optional<std::string> not_regular(const ExactBalls& balls, const Beads& pre
   return std::nullopt;
 }
 
+namespace {
+
+/// The smallest sphere orthogonal to the balls of a simplex.
+struct OrthogonalSphere {
+  std::vector<Rational> center;
+  Rational square;  ///< of its radius; negative if the balls have a common interior point
+};
+
+/// Solves the linear equations of the centre by elimination. Returns nothing if the beads are dependent.
+std::optional<OrthogonalSphere> orthogonal_sphere(const ExactBalls& balls, const Beads& simplex) {
+  const std::size_t m = simplex.size() - 1, dimension = balls.dimension();
+  const auto& origin = balls.centers[simplex[0]];
+  std::vector<std::vector<Rational>> edges(m, std::vector<Rational>(dimension)), g = edges;
+  for (std::size_t i = 0; i < m; ++i)
+    for (std::size_t axis = 0; axis < dimension; ++axis)
+      edges[i][axis] = balls.centers[simplex[i + 1]][axis] - origin[axis];
+  for (std::size_t i = 0; i < m; ++i) {
+    g[i].assign(m + 1, 0);
+    for (std::size_t j = 0; j < m; ++j)
+      g[i][j] = std::inner_product(edges[i].begin(), edges[i].end(), edges[j].begin(), Rational(0));
+    g[i][m] = (g[i][i] - balls.weights[simplex[i + 1]] + balls.weights[simplex[0]]) / 2;
+  }
+  for (std::size_t k = 0; k < m; ++k) {
+    if (g[k][k] == 0) return std::nullopt;  // G is positive semidefinite
+    for (std::size_t i = 0; i < m; ++i) {
+      if (i == k) continue;
+      const Rational factor = g[i][k] / g[k][k];
+      for (std::size_t j = k; j <= m; ++j) g[i][j] -= factor * g[k][j];
+    }
+  }
+  OrthogonalSphere sphere{std::vector<Rational>(origin.begin(), origin.end()),
+                          -Rational(balls.weights[simplex[0]])};
+  for (std::size_t axis = 0; axis < dimension; ++axis) {
+    Rational along = 0;
+    for (std::size_t i = 0; i < m; ++i) along += g[i][m] / g[i][i] * edges[i][axis];
+    sphere.center[axis] += along;
+    sphere.square += along * along;
+  }
+  return sphere;
+}
+
+}  // namespace
+
+std::optional<std::string> not_dual(const ExactBalls& balls, const Beads& present,
+                                    const std::vector<Beads>& cells, const std::vector<Beads>& simplices) {
+  std::map<Beads, bool> belongs;  // of all simplices of the triangulation; known faces are true already
+  for (const Beads& cell : cells)
+    for (unsigned faces = 1; faces < 1U << cell.size(); ++faces) {
+      Beads face;
+      for (std::size_t i = 0; i < cell.size(); ++i)
+        if ((faces >> i & 1U) != 0) face.push_back(cell[i]);
+      belongs[face] = false;
+    }
+  const auto mark_facets = [&](const Beads& simplex) {
+    for (const BeadId off : simplex) {
+      Beads facet = simplex;
+      std::erase(facet, off);
+      if (!facet.empty()) belongs[facet] = true;
+    }
+  };
+  for (std::size_t size = balls.dimension() + 1; size > 0; --size)
+    for (auto& [simplex, is_in] : belongs) {
+      if (simplex.size() != size) continue;
+      if (is_in) {
+        mark_facets(simplex);
+        continue;
+      }
+      const auto sphere = orthogonal_sphere(balls, simplex);
+      if (!sphere) return fmt::format("the beads of simplex {} are dependent", simplex);
+      if (sphere->square > 0) continue;
+      const bool is_attached = std::any_of(present.begin(), present.end(), [&](BeadId b) {
+        if (std::find(simplex.begin(), simplex.end(), b) != simplex.end()) return false;
+        Rational power = -Rational(balls.weights[b]);
+        for (std::size_t axis = 0; axis < balls.dimension(); ++axis) {
+          const Rational along = sphere->center[axis] - balls.centers[b][axis];
+          power += along * along;
+        }
+        return power < sphere->square;
+      });
+      is_in = !is_attached;
+      if (is_in) mark_facets(simplex);
+    }
+  std::vector<Beads> expected;
+  for (const auto& [simplex, is_in] : belongs)
+    if (is_in) expected.push_back(simplex);
+  std::vector<Beads> found = simplices;
+  std::sort(found.begin(), found.end());
+  if (found == expected) return std::nullopt;
+  return fmt::format("the complex has the simplices {}, brute force finds {}", found, expected);
+}
+
 std::optional<std::string> not_smallest(const ExactBalls& balls, const BeadRange& node, const Beads& basis) {
   if (basis.empty()) return "no basis";
   for (const BeadId b : basis)

@@ -106,6 +106,11 @@ using Beads = std::vector<BeadId>;
 /// degenerate position every regular triangulation is accepted. Cells have dimension + 1 beads.
 [[nodiscard]] std::optional<std::string> not_regular(const ExactBalls& balls, const Beads& present,
                                                      const std::vector<Beads>& cells);
+/// Explains why these simplices are not the dual complex of the cells, or returns nothing. A simplex is
+/// listed by its ascending beads.
+[[nodiscard]] std::optional<std::string> not_dual(const ExactBalls& balls, const Beads& present,
+                                                  const std::vector<Beads>& cells,
+                                                  const std::vector<Beads>& simplices);
 /// Explains why the smallest sphere through the basis is not the smallest one around a node's beads, or
 /// returns nothing. All radii must be equal.
 [[nodiscard]] std::optional<std::string> not_smallest(const ExactBalls& balls, const BeadRange& node,

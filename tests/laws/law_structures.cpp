@@ -68,16 +68,31 @@ std::optional<std::string> fault_of_wrapped(const Judged& judged) {
   return std::nullopt;
 }
 
+std::vector<Beads> cells_of(const RunningStructure& power) {
+  std::vector<Beads> cells;
+  const auto add = [&](const auto& diagram) {
+    for (const auto& cell : diagram.at_frame(false).cells) cells.emplace_back(cell.begin(), cell.end());
+  };
+  if (const auto* diagram = dynamic_cast<const PowerDiagram<2>*>(&kinetic(power))) {
+    add(*diagram);
+  } else {
+    add(dynamic_cast<const PowerDiagram<3>&>(kinetic(power)));
+  }
+  return cells;
+}
+
 std::optional<std::string> fault_of_power(const Judged& judged) {
   if (judged.scene.is_lifted()) return std::nullopt;  // weights between frames are not those of the curves
-  const auto fault_in = [&](const auto& diagram) {
-    std::vector<Beads> cells;
-    for (const auto& cell : diagram.at_frame(false).cells) cells.emplace_back(cell.begin(), cell.end());
-    return not_regular(judged.balls, judged.present, cells);
-  };
-  if (const auto* diagram = dynamic_cast<const PowerDiagram<2>*>(&kinetic(judged.structure)))
-    return fault_in(*diagram);
-  return fault_in(dynamic_cast<const PowerDiagram<3>&>(kinetic(judged.structure)));
+  return not_regular(judged.balls, judged.present, cells_of(judged.structure));
+}
+
+std::optional<std::string> fault_of_dual(const Judged& judged) {
+  std::vector<Beads> cells = cells_of(*judged.base), simplices;
+  for (Beads& cell : cells) std::sort(cell.begin(), cell.end());
+  for (const auto& layer : judged.structure.replay_elements(false))
+    for (const ReplayElement& simplex : layer)
+      simplices.emplace_back(simplex.begin(), std::find(simplex.begin(), simplex.end(), no_bead));
+  return not_dual(judged.balls, judged.present, cells, simplices);
 }
 
 }  // namespace
@@ -100,6 +115,7 @@ const std::vector<LawStructure>& law_structures() {
       {"boxes", {.directions = 4}, Edits::beads, true, fault_of_boxes},
       {"boxes", {.directions = 7}, Edits::beads, true, fault_of_boxes},
       {"power", {}, Edits::beads, false, fault_of_power},
+      {"dual", {}, Edits::beads, false, fault_of_dual, 40, 16},
       {"contacts", {}, Edits::beads, true, fault_of_contacts},
       {"crossings", {}, Edits::none},
   };

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ namespace kds::test {
 struct Judged {
   const Scene& scene;
   const RunningStructure& structure;
+  const RunningStructure* base;  ///< the structure on which it stands, or null
   const ExactBalls& balls;
   const Beads& present;
 };
@@ -32,6 +34,9 @@ struct LawStructure {
   bool is_unique = false;
   /// Explains why the structure is not what its definition says, or returns nothing.
   std::function<std::optional<std::string>(const Judged&)> fault = {};
+  std::size_t judge_every = 1;  ///< brute force judges every so many audits
+  /// Larger scenes are left out, unless KDS_LAW_BEADS gives another limit.
+  std::size_t most_beads = std::numeric_limits<std::size_t>::max();
 
   /// Returns the name of the row, for messages.
   [[nodiscard]] std::string title() const;

@@ -138,7 +138,7 @@ Trajectory wandering_chain(std::uint64_t seed, int beads, int frames) {
 }
 
 const std::vector<std::string> all_structures{"sorted", "box",   "closest", "wrapped",
-                                              "boxes",  "power", "contacts"};
+                                              "boxes",  "power", "dual",    "contacts"};
 
 Scene scene_of(const Trajectory& necklace, std::vector<double> radii,
                FrameMotion motion = FrameMotion::linear) {

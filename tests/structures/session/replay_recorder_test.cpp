@@ -311,6 +311,21 @@ TEST(ReplayRecorder, MustBeBegun) {
   EXPECT_THROW(static_cast<void>(recorder.elements(2, 0)), std::invalid_argument);
 }
 
+TEST(ReplayRecorder, KeepsTheDualComplex) {
+  for (const int dimension : {2, 3}) {
+    const Scene scene = wandering_scene(dimension, 2, FrameMotion::linear);
+    KineticRun run(scene, {{"dual"}});
+    ReplayRecorder recorder(run);
+    run.listen(recorder);
+    run.build();
+    recorder.begin();
+    expect_elements_of_run(recorder, run);
+    std::size_t events = 0;
+    for (; run.next_event() && events < 200; ++events) expect_elements_of_run(recorder, run);
+    EXPECT_EQ(events, 200U);
+  }
+}
+
 TEST(ReplayRecorder, RecordsEditsOfBeads) {
   const Scene scene = wandering_scene(3, 4, FrameMotion::linear);
   KineticRun run(scene, {{"sorted", "box", "closest", "boxes", "power", "contacts"}});

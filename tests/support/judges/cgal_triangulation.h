@@ -18,4 +18,8 @@ struct CgalCells {
 
 [[nodiscard]] CgalCells cgal_regular_cells(std::span<const ExactPoint> points);
 
+/// Returns the simplices of CGAL's weighted alpha shape at alpha = 0 that are not exterior, sorted; the beads
+/// of each ascend, and unused entries hold no_bead. Points are balls whose squared radii are their weights.
+[[nodiscard]] std::vector<std::array<BeadId, 4>> cgal_alpha_complex(std::span<const ExactPoint> points);
+
 }  // namespace kds::test
