@@ -34,7 +34,8 @@ bool names_reduced_units(const std::filesystem::path& path) {
 }
 
 std::string parse_radius(const std::string& rule) {
-  if (rule == "auto" || rule == "element" || rule == "element:fit") return rule;
+  // `array` is the rule of positions in memory with a radius for each bead; files refuse it.
+  if (rule == "auto" || rule == "element" || rule == "element:fit" || rule == "array") return rule;
   if (constexpr std::string_view prefix = "file:"; rule.starts_with(prefix)) {
     if (rule.size() == prefix.size())
       throw InputError("--radius", "file: needs a path, as in file:radii.txt");

@@ -110,7 +110,7 @@ std::vector<double> radii_by(const std::string& policy, Necklaces necklaces, con
   const std::size_t beads = count_beads(necklaces);
   constexpr std::string_view from_file = "file:";
   if (policy == "auto") return std::vector<double>(beads, survey.bonds.radius());
-  if (policy == "element") return element_radii(policy, necklaces);
+  if (policy == "element" || policy == "array") return element_radii(policy, necklaces);
   if (policy == "element:fit")
     return fit_radii(element_radii(policy, necklaces), necklaces, survey.first_positions);
   if (policy.starts_with(from_file)) return radii_from_file(policy.substr(from_file.size()), beads);

@@ -16,6 +16,7 @@ namespace kds {
 ///   radius for all beads of the run
 /// - a number: that radius for all beads (finite, positive)
 /// - element: van der Waals radii
+/// - array: the radii given with positions in memory (NecklaceBeads::element_radii)
 /// - element:fit: van der Waals radii times one factor such that nonadjacent beads are disjoint in the first
 ///   frame
 /// - file:PATH: one radius per line in bead order, or a single one for all beads (finite, not negative)

@@ -409,7 +409,7 @@ def open_input(source, *, start=None, stop=None, step=None, units=None, necklace
         beads.radii = numbers("radius", radius).ravel().tolist()
         if not beads.radii:
             raise InputError("radius: is empty; expected one number for each bead")
-        more = more + ["--radius", "element"]
+        more = more + ["--radius", "array"]
     elif radius is not None:
         more = more + ["--radius", str(radius)]
     memory = _kds.Frames(*frames, beads)
