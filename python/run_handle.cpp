@@ -112,6 +112,7 @@ RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more,
 RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more, PushedFrames frames)
     : options_(pushed_options(arguments)) {
   frames.motion = options_.motion;
+  frames.probe = options_.probe_length();
   for (const std::string& name : options_.structures) {
     const StructureSpec* const spec = structure_registry().find(name);
     if (frames.cell && spec != nullptr && spec->lacks_images)

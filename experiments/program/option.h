@@ -422,6 +422,17 @@ template <class Options, class Member>
   return whole_option({"--apart", "K", help}, apart, 1, 1'000'000'000);
 }
 
+/// Returns the option --probe of power diagrams and dual complexes.
+template <class Options>
+[[nodiscard]] Option<Options> probe_option(std::optional<double> Options::*probe) {
+  return real_option(
+      {"--probe", "LENGTH",
+       fmt::format("power and dual: radius of a probe, which is added to the radii of the beads "
+                   "(default: 1.4 for dual with {} element, otherwise 0)",
+                   "--radius"_arg)},
+      probe, {0, 1e150});
+}
+
 /// Returns the option --directions of hierarchies of boxes.
 template <class Options, class Member>
 [[nodiscard]] Option<Options> directions_option(Member Options::*directions) {

@@ -239,6 +239,10 @@ class LoneFrameTwice final : public FrameSource {
 Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                      const std::function<void(const std::string&)>& warn,
                      const std::optional<MotionTolerance>& tolerance, bool* lone_frame) {
+  for (const std::filesystem::path& path : input.inputs)
+    if (input.radius == "array" && std::filesystem::exists(path))
+      throw InputError("--radius",
+                       "array is for positions in memory; expected file:PATH, with a line a bead");
   std::unique_ptr<FileFrames> files = open_frames(input, warn);
   FrameSurvey survey = survey_frames(*files, input.radius == "auto", warn);
   survey.periodic = survey.periodic && input.periodic;
@@ -277,9 +281,14 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
     if (options.tolerance)
       throw InputError("--tolerance", fmt::format("has no meaning for an instance file ({})",
                                                   options.inputs.front().string()));
+    if (options.probe)
+      throw InputError("--probe", fmt::format("has no meaning for an instance file, whose weights are given "
+                                              "({})",
+                                              options.inputs.front().string()));
     return Scene(std::move(*instance));
   }
   Scene scene = load_necklaces(input, options.motion, 1, warn, options.tolerance, lone_frame);
+  scene.set_probe(options.probe_length());
   for (const std::string& name :
        options.structures.empty() ? default_structures(scene) : options.structures) {
     const StructureSpec* const spec = structure_registry().find(name);

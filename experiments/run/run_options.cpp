@@ -121,6 +121,15 @@ Option<RunOptions> structures_option() {
           [](const RunOptions& o) { return fmt::format("{}", fmt::join(o.structures, ",")); }};
 }
 
+/// Returns the option --probe. Its default value appears as a setting, unless it is 0.
+Option<RunOptions> probe_option_of_run() {
+  auto option = probe_option(&RunOptions::probe);
+  option.text = [](const RunOptions& o) {
+    return o.probe || o.probe_length() > 0 ? fmt::format("{}", o.probe_length()) : "";
+  };
+  return only_for({"power", "dual"}, option);
+}
+
 /// Returns the option --rounds. The default value of the option does not appear as a setting.
 Option<RunOptions> rounds_option() {
   auto option = whole_option(
@@ -178,6 +187,7 @@ const OptionList<RunOptions>& motion_and_structure_options() {
           .with(OptionList<InputOptions>({only_for({"contacts"}, groups_option())}))
           .with({
               only_for({"boxes"}, directions_option(&O::directions)),
+              probe_option_of_run(),
               tolerance_option(),
           });
   return list;

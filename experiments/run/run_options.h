@@ -46,6 +46,7 @@ struct RunOptions : InputOptions, Destinations {
   std::optional<Between> between;               ///< --between; empty if not given
   std::optional<double> tightness;              ///< --tightness; empty if not given
   std::optional<int> directions;                ///< --directions; empty if not given
+  std::optional<double> probe;                  ///< --probe; empty if not given
   std::optional<MotionTolerance> tolerance;     ///< --tolerance; empty if not given
   bool certify = false;                         ///< --certify
   std::optional<std::filesystem::path> dump;    ///< directory for the structures at every frame
@@ -55,6 +56,13 @@ struct RunOptions : InputOptions, Destinations {
   std::size_t rounds = 1;                       ///< number of rounds that are timed
   std::optional<std::size_t> threads;           ///< --threads; empty for all cores
   std::optional<std::uint64_t> work;            ///< limit on the limb operations of exact arithmetic
+
+  /// Returns --probe or its default: 1.4, the radius of water in angstrom, for the dual complex of van der
+  /// Waals balls; otherwise 0.
+  [[nodiscard]] double probe_length() const {
+    const bool is_default = std::ranges::count(structures, "dual") > 0 && radius == "element";
+    return probe.value_or(is_default ? 1.4 : 0);
+  }
 };
 
 /// Returns the options --out, --replace, --json and --quiet of a run. The replay of a run has the same

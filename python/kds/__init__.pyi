@@ -49,6 +49,7 @@ class _Settings(TypedDict, total=False):
     tightness: Optional[float]
     apart: Optional[int]
     directions: Optional[int]
+    probe: Optional[float]
     tolerance: Union[float, str, None]
     certify: bool
     audit: Optional[str]
@@ -84,6 +85,7 @@ class _Compare(_Input, total=False):
     strides: Optional[Strides]
     motions: Optional[Names]
     directions: Optional[int]
+    probe: Optional[float]
     apart: Optional[int]
     rounds: Optional[int]
     threads: Optional[int]
