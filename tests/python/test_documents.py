@@ -156,6 +156,31 @@ class Manual(unittest.TestCase):
         self.assertEqual(number[times <= 0].tolist()[-1], names["once"].all["open_at_start"])
         self.assertAlmostEqual(np.sum(number[:-1] * np.diff(times)), names["once"].all["total"], places=6)
 
+    def test_examples_of_the_dual_complex(self):
+        try:
+            import matplotlib
+            import pandas  # noqa: F401
+        except Exception as error:
+            self.skipTest(f"the examples need matplotlib and pandas ({error})")
+        matplotlib.use("svg")
+        files = [ROOT / "data" / "trajectories" / f"villin_hp36_300K{end}" for end in (".dcd", ".pdb")]
+        names = self.run_blocks("dual_complex.md", 4, *((file, file.name) for file in files))
+        run, lines = names["run"], list(names["zigzag"](names["run"]))
+        now = {}  # simplices, each with the number of those of one bead more that contain it
+        for line in lines:
+            beads = tuple(map(int, line.split()[1:]))
+            faces = [beads[:k] + beads[k + 1:] for k in range(len(beads))] if len(beads) > 1 else []
+            if line.startswith("i "):
+                self.assertNotIn(beads, now)
+                now[beads] = 0
+            else:
+                self.assertEqual(now.pop(beads), 0, line)
+            for face in faces:
+                now[face] += 1 if line.startswith("i ") else -1
+        last = {tuple(bead for bead in row if bead >= 0) for row in run.dual.elements(39).tolist()}
+        self.assertEqual(set(now), last)
+        self.assertEqual(names["euler"].iloc[-1], sum((-1) ** (len(beads) - 1) for beads in last))
+
     def run_blocks(self, document, least, *copies):
         """Runs the blocks of Python in a document, in a folder with copies of files. Returns the names they define."""
         blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / document).read_text(), re.S)
