@@ -56,8 +56,8 @@ class Structure:
         """Returns the structure's state at a frame as a set of elements, an array (elements, 6) of ids.
 
         ``frame`` is a whole number. Unused ids are -1. Elements are bases of nodes (``wrapped``),
-        supports of nodes (``boxes``), cells (``power``), pairs (``contacts``, ``closest``), ranks (``sorted``), ends
-        (``box``) or corners (``hull``); docs/python.md lists their ids.
+        supports of nodes (``boxes``), cells (``power``), simplices (``dual``), pairs (``contacts``,
+        ``closest``), ranks (``sorted``), ends (``box``) or corners (``hull``); docs/python.md lists their ids.
         """
         number("frame", frame)  # None is no frame here
         time = self._run._clock.time(frame)
