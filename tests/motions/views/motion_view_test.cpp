@@ -164,6 +164,8 @@ TEST(DoubleView, KnowsTheLargestLength) {
   motion.set_weight(0, 1, -49);
   (void)view.weight_difference(0, 1);
   EXPECT_EQ(view.largest_length(), 7);
+  (void)view.weight(0);
+  EXPECT_EQ(view.largest_length(), 7);
   (void)view.difference(2, 1);
   EXPECT_EQ(view.largest_length(), 9);
   motion.set_radius(0, 1, 10);
@@ -284,6 +286,7 @@ TEST(AnyDegreeMotion, IsSeenAsItIs) {
       EXPECT_EQ(at(d[0]), scale * (p[0] - q[0]));
       EXPECT_EQ(at(d[1]), scale * (p[1] - q[1]));
       EXPECT_EQ(at(view.weight_difference(0, 1)), scale * scale * (p[2] - q[2]));
+      EXPECT_EQ(at(view.weight(1)), scale * scale * q[2]);
       EXPECT_EQ(at(view.radius_sum(0, 1)), scale * (exact_radius(any, 0, time) + exact_radius(any, 1, time)));
     }
     if (degree != 3) continue;
