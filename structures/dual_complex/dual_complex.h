@@ -59,8 +59,8 @@ class DualComplex final : public StructureBase, public BeadEdits, private CellFo
   }
 
   /// `diagram` is a structure of the same run, added before this one, over the same motion. It must outlive
-  /// the complex. Throws std::invalid_argument if the motion is lifted or its degree is above 7 (in
-  /// the plane: 10).
+  /// the complex. Throws std::invalid_argument if the motion is lifted or its degree is above 7 (in the
+  /// plane: 10).
   DualComplex(Simulator& simulator, const MotionRef<Dimension>& motion, PowerDiagram<Dimension>& diagram);
 
   /// Returns the simplices of the complex of this dimension, each with its beads ascending, in lexicographic
@@ -183,8 +183,8 @@ class DualComplex final : public StructureBase, public BeadEdits, private CellFo
   bool must_read_all_ = true;      // all cells were replaced
   bool has_certificates_ = false;  // false from a build to the next step
   bool was_flat_ = false;          // whether some cell is flat at the frame just reached
-  // The rest is about the time between an exchange or a failure and the next settle(). Simplices may be
-  // listed repeatedly, or be gone.
+  // The members below collect changes between an exchange or a failure and the next settle(). Simplices may
+  // be listed repeatedly, or be gone.
   Happened happened_ = Happened::nothing;
   bool all_changed_ = false;                       // whether all simplices are in question
   bool any_gone_ = false, gone_is_small_ = false;  // of the finite cells that a single flip removed
