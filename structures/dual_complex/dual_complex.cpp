@@ -127,6 +127,7 @@ void DualComplex<Dimension>::exchanged(std::span<const CellId> gone, std::span<c
     gone_is_small_ = of(simplex).is_small;
   }
   follow(faces_.exchange(gone, made));
+  if (follower_ != nullptr) follower_->exchanged(gone, made, is_flip);
 }
 
 template <int Dimension>
@@ -142,6 +143,7 @@ void DualComplex<Dimension>::read_all_cells() {
   note(Happened::much);
   all_changed_ = true;
   follow(faces_.read_all());
+  if (follower_ != nullptr) follower_->replaced_all();
 }
 
 template <int Dimension>
@@ -332,6 +334,7 @@ template <int Dimension>
 void DualComplex<Dimension>::set_membership(SimplexName simplex, bool belongs) {
   if (of(simplex).belongs == belongs) return;
   of(simplex).belongs = belongs;
+  decided_.push_back(simplex);
   (belongs ? begins_ : ends_).emplace_back(simplex.dimension, faces_.beads_of(simplex));
 }
 
@@ -457,7 +460,10 @@ void DualComplex<Dimension>::settle(Moment moment) {
   if (happened_ == Happened::much) find_sizes_of_new(moment);
   if (moment == Moment::just_after) check_certificates();
   decide_membership(moment, happened_ == Happened::much);
-  if (moment == Moment::just_after) record_changes();
+  if (moment == Moment::just_after) {
+    record_changes();
+    if (follower_ != nullptr) follower_->settled({ends_, begins_, decided_});
+  }
   happened_ = Happened::nothing;
   needs_after_batch = false;  // set while certificates were made
   unchecked_.clear();
@@ -465,6 +471,7 @@ void DualComplex<Dimension>::settle(Moment moment) {
   lost_.clear();
   ends_.clear();
   begins_.clear();
+  decided_.clear();
 }
 
 template <int Dimension>

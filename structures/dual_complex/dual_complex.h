@@ -42,6 +42,7 @@
 #include "certificates/types/simplex_size.h"
 #include "kds/certificate_table.h"
 #include "kds/structure_base.h"
+#include "structures/dual_complex/complex_follower.h"
 #include "structures/dual_complex/triangulation_faces.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/triangulation/cell_follower.h"
@@ -63,6 +64,17 @@ class DualComplex final : public StructureBase, public BeadEdits, private CellFo
   /// plane: 10).
   DualComplex(Simulator& simulator, const MotionRef<Dimension>& motion, PowerDiagram<Dimension>& diagram);
 
+  /// From now on, tells `follower` what changes. It must live until the last change.
+  void set_follower(ComplexFollower* follower) { follower_ = follower; }
+  /// The triangulation of the diagram, and the names of its simplices.
+  [[nodiscard]] const RegularTriangulation<Dimension>& triangulation() const {
+    return diagram_.triangulation();
+  }
+  [[nodiscard]] const TriangulationFaces<Dimension>& faces() const { return faces_; }
+  /// Returns whether a live simplex belongs to the complex.
+  [[nodiscard]] bool has(SimplexName simplex) const { return of(simplex).belongs; }
+  /// Returns whether the triangulation has cells. Without cells, the complex is empty.
+  [[nodiscard]] bool has_cells() const { return diagram_.is_solid(); }
   /// Returns the simplices of the complex of this dimension, each with its beads ascending, in lexicographic
   /// order. Takes time m log m for m simplices.
   [[nodiscard]] std::vector<SimplexBeads> simplices(int dimension) const;
@@ -169,6 +181,7 @@ class DualComplex final : public StructureBase, public BeadEdits, private CellFo
 
   MotionRef<Dimension> motion_;
   PowerDiagram<Dimension>& diagram_;
+  ComplexFollower* follower_ = nullptr;
   TriangulationFaces<Dimension> faces_;
   std::array<std::vector<Knowledge>, static_cast<std::size_t>(Dimension) + 1> known_;  // by dimension
   CertificateTable<SimplexSize<1>> vertex_sizes_;
@@ -190,10 +203,11 @@ class DualComplex final : public StructureBase, public BeadEdits, private CellFo
   bool any_gone_ = false, gone_is_small_ = false;  // of the finite cells that a single flip removed
   bool small_face_is_gone_ = false;                // whether this flip removed a small face
   std::vector<SimplexName> new_, changed_, unchecked_;
-  std::vector<SimplexName> around_;              // simplices that bound the exchanged cells
-  using Simplex = std::pair<int, SimplexBeads>;  // with its dimension
-  std::vector<Simplex> lost_;                    // simplices of the complex whose cells are gone
+  std::vector<SimplexName> around_;  // simplices that bound the exchanged cells
+  using Simplex = DimensionAndBeads;
+  std::vector<Simplex> lost_;  // simplices of the complex whose cells are gone
   std::vector<Simplex> ends_, begins_;
+  std::vector<SimplexName> decided_;  // live simplices that began or ended to belong
   // Simplices whose membership is in question, by dimension; empty outside decide_membership().
   std::array<std::vector<SimplexName>, static_cast<std::size_t>(Dimension) + 1> in_question_;
   // The complex of a replay, which has no certificates; empty until the first change is repeated.

@@ -7,6 +7,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -57,6 +58,18 @@ class TriangulationFaces {
   }
   [[nodiscard]] bool is_live(SimplexName simplex) const { return at(simplex).cell != no_cell; }
   [[nodiscard]] const SimplexBeads& beads_of(SimplexName simplex) const { return at(simplex).beads; }
+  /// Returns the name of the facet opposite to vertex i of a cell, or nothing if the facet is at infinity.
+  [[nodiscard]] std::optional<SimplexName> facet(CellId cell, int i) const {
+    const int slot = Dimension == 3 ? 6 + i : 2 - i;
+    const std::uint32_t number = of_cell_[cell][static_cast<std::size_t>(slot)];
+    if (number == no_face) return std::nullopt;
+    return SimplexName{Dimension - 1, number};
+  }
+  /// Returns the two cells of a facet. One of them may be infinite.
+  [[nodiscard]] std::array<CellId, 2> cells_of(SimplexName facet) const {
+    const Simplex& simplex = at(facet);
+    return {simplex.cell, cell_of(triangulation_.beyond(simplex.cell, std::countr_one(simplex.mask)))};
+  }
   /// Calls `visit` with each simplex of one dimension less in the given one.
   template <class Visit>
   void for_facets(SimplexName simplex, Visit visit) const;
