@@ -316,6 +316,43 @@ def other_structures_are_those_of_the_run(browser, kds, data, place):
         check(subtitle.endswith(f" {total:,} events"), f"{name}: {subtitle}, expected {total}")
 
 
+MARKED = """
+  await kds.seekEvent(...args);
+  const scene = document.getElementById("scene");
+  const context = new OffscreenCanvas(scene.width, scene.height).getContext("2d");
+  context.drawImage(scene, 0, 0);
+  const kind = document.querySelector("#event h3").textContent.split(/[ _]/).slice(1);
+  const beads = [...document.querySelectorAll("#event-now span")].map((span) => parseInt(span.textContent.match(/[0-9]+/)));
+  const middle = [0, 1].map((axis) => beads.reduce((sum, bead) => sum + kds.project(bead)[axis] / beads.length, 0));
+  const {data} = context.getImageData(...middle.map((place) => Math.floor(place) - 3), 7, 7);  // larger than a gap between dashes
+  return [kind, [0, 1].map((colour) => data.filter((_, k) => k % 4 === colour).reduce((sum, value) => sum + value))];
+"""
+
+
+def complexes_are_those_of_the_run(browser, kds, place):
+    """Simplices at frames are those of the dump. A simplex that begins is marked green, one that ends red."""
+    rng = random.Random(7)
+    browser.size(1280, 800)
+    for name, depth, shapes in (("discs", 0, 3), ("balls", 6, 4)):
+        trajectory, replay, dump = (os.path.join(place, name + ending) for ending in (".xyz", ".html", "-dump"))
+        with open(trajectory, "w") as file:
+            for _ in range(4):
+                points = [[rng.uniform(0, 12), rng.uniform(0, 9), rng.uniform(0, depth)] for _ in range(30)]
+                file.write("30\nframe\n" + "".join(f"C {x} {y} {z}\n" for x, y, z in points))
+        run_program(kds, "run", trajectory, "--radius", "1.6", "--structures", "dual", "--view", replay, "--dump", dump,
+                    "--replace")
+        browser.open(replay, "#layers=flashes&size=0.1")
+        for frame, state in enumerate(browser.wait(OTHERS, [["seek", frame, 0] for frame in range(4)])):
+            found = {tuple(beads) for layer in ("balls", "links", "triangles", "tetrahedra") for beads in state[layer]}
+            dumped = {tuple(map(int, row[0].split())) for row in rows(os.path.join(dump, f"frame-{frame}.dual.csv"))}
+            check(found == dumped and max(map(len, found)) == shapes, f"{name} at frame {frame}: {found ^ dumped}")
+        seen = [tuple(browser.wait(MARKED, 1, event)) for event in range(0, 160, 8)]
+        for (shape, way), (red, green) in seen:
+            check(green > red if way == "begin" else red > green, f"{name}: {shape} {way} is {red} red and {green} green")
+        check(len({tuple(kind) for kind, _ in seen}) >= 2 * (shapes - 1), f"{name}: {seen}")
+    browser.size(480, 360)
+
+
 def spheres_are_those_of_the_run(browser, kds, data, place):
     """Layered spheres and chords, at frames as dumped, and half way between two frames in the middle."""
     villin = os.path.join(data, "trajectories", "villin_hp36_300K")
@@ -370,6 +407,7 @@ def main(kds, data, place):
         positions_are_on_the_curves(browser, kds, place)
         instances_are_shown(browser, kds, data, place)
         other_structures_are_those_of_the_run(browser, kds, data, place)
+        complexes_are_those_of_the_run(browser, kds, place)
         spheres_are_those_of_the_run(browser, kds, data, place)
         one_frame_is_shown(browser, kds, data, place)
         many_edges_are_drawn(browser, kds, place)

@@ -3,6 +3,7 @@
 Node writes the replay. The picture is the twin of picking and of cages: the pixels say which bead is seen where.
 """
 import base64
+import itertools
 import os
 import random
 import subprocess
@@ -265,6 +266,31 @@ def event_is_named_and_kinds_are_skipped(browser):
     check("contacts: end" in seen, f"n went to no end of a contact: {seen}")
 
 
+def depth_in(triangle, x, y):
+    """Returns how far a point lies within a triangle: its least distance from a side, negative outside."""
+    distances = []
+    for (ax, ay), (bx, by), (cx, cy) in zip(triangle, triangle[1:] + triangle[:1], triangle[2:] + triangle[:2]):
+        length = ((bx - ax)**2 + (by - ay)**2)**0.5
+        left, third = ((bx - ax) * (q - ay) - (by - ay) * (p - ax) for p, q in ((x, y), (cx, cy)))
+        distances.append((left if third > 0 else -left) / max(length, 1e-9))
+    return min(distances)
+
+
+def faces_are_drawn(browser, layer):
+    """Pixels are drawn where a triangle, or a side of a tetrahedron, is projected, and nowhere else."""
+    picture = pixels(browser, layer)
+    shown = marked(picture)
+    simplices = browser.run("return kds.state()[arguments[0]].map((beads) => beads.map(kds.project))", layer)
+    triangles = [triple for simplex in simplices for triple in itertools.combinations(simplex, 3)]
+    seen = [0, 0]
+    for x, y in itertools.product(range(0, len(picture[0]), 13), range(0, len(picture), 13)):
+        depth = max(depth_in(triangle, x + 0.5, y + 0.5) for triangle in triangles)
+        if abs(depth) > 1:  # the edge of a triangle crosses other pixels
+            check(((x, y) in shown) == (depth > 0), f"{layer}: pixel {x}, {y} lies {depth} within a triangle")
+            seen[depth > 0] += 1
+    check(min(seen) > 20, f"{layer}: {seen} pixels outside and within triangles")
+
+
 def every_structure_is_drawn(browser, node, page, place):
     for dimension in ("2", "3"):
         replay = os.path.join(place, f"still{dimension}.html")
@@ -272,9 +298,11 @@ def every_structure_is_drawn(browser, node, page, place):
                         replay, "24", "3", dimension, "Still", "still"], check=True)
         browser.open(replay)
         browser.run("document.getElementById('all-levels').click()")
-        for layer in ("boxes", "box", "hull", "closest", "spheres"):
+        for layer in ("boxes", "box", "hull", "closest", "spheres", "links"):
             drawn = marked(pixels(browser, layer))
             check(len(drawn) > 60, f"{layer} has {len(drawn)} pixels")
+        for layer in ("triangles", "voids"):
+            faces_are_drawn(browser, layer)
         check(browser.run("return document.getElementById('ranks').hidden"), "the order is shown, though it is off")
         pixels(browser, "order", "closest")
         colours = browser.run("""const c = document.getElementById("ranks");

@@ -143,6 +143,14 @@ function stillStructures(frames) {
   const hull = beads.flatMap((i) => beads.filter((j) => j !== i
       && beads.every((k) => turn(first[i], first[j], first[k]) >= 0)).map((j) => [i, j]));
   const order = [...beads].sort((a, b) => first[a][0] - first[b][0]).map((bead, rank) => [rank, bead]);
+  const near = (...list) => list.every((a) => list.every((b) => far(first[a], first[b]) <= 3));
+  const cliques = [beads.map((bead) => [bead])];
+  for (let k = 1; k <= first[0].length; ++k)
+    cliques.push(cliques[k - 1].flatMap((list) =>
+      beads.filter((b) => b > list.at(-1) && near(...list, b)).map((b) => [...list, b])));
+  const layers = ["balls", "links", "triangles", "tetrahedra"].slice(0, cliques.length)
+    .map((name, k) => ({ name, arity: k + 1, initial: cliques[k] }));
+  const voids = { name: "voids", arity: cliques.length, initial: cliques.at(-1).filter((_, k) => k % 3 === 0) };
   const still = (name, layer, initial, more = {}) =>
     ({ name, kinds: [], stages: [], events: [], layers: layer ? [{ name: layer, arity: initial[0].length, initial }] : [],
         ...more });
@@ -152,6 +160,7 @@ function stillStructures(frames) {
     still("hull", "hull", hull),
     still("closest", "closest", [closest]),
     still("boxes", "supports", supports, { nodes }),
+    still("dual", null, [], { layers: [...layers, voids] }),
     still("layered", null, [], { nodes, spheres: { nodes: [0], frames: frames.map((_, f) => [[5, 1, 0.5, 6 + f]]) } }),
   ];
 }

@@ -6,14 +6,14 @@ const themes = {
   light: {
     page: "#ffffff", fog: "#ffffff", chain: "#6b7784", edges: "#64748b", contacts: "#e69f00",
     goes: "#d1350f", comes: "#008a5e", glow: "#7b2fd0", chosen: "#0072b2", cage: "#0072b2", boxes: "#d55e00",
-    spheres: "#009e73", box: "#b0508f", hull: "#009e73", closest: "#b3245b", axis: "#5b6673",
-    grid: "#d9dee4",
+    spheres: "#009e73", box: "#b0508f", hull: "#009e73", closest: "#b3245b", links: "#2f7da8",
+    triangles: "#56b4e9", voids: "#cc79a7", axis: "#5b6673", grid: "#d9dee4",
   },
   dark: {
     page: "#14181d", fog: "#14181d", chain: "#aab4bf", edges: "#8a99ab", contacts: "#f0b429",
     goes: "#ff6a45", comes: "#35d39f", glow: "#ffe066", chosen: "#6ac1ff", cage: "#6ac1ff", boxes: "#f07b33",
-    spheres: "#2fc296", box: "#e09cc2", hull: "#2fc296", closest: "#ff7fa8", axis: "#9aa5b1",
-    grid: "#313a44",
+    spheres: "#2fc296", box: "#e09cc2", hull: "#2fc296", closest: "#ff7fa8", links: "#8accf5",
+    triangles: "#4aa3e0", voids: "#e09cc2", axis: "#9aa5b1", grid: "#313a44",
   },
 };
 

@@ -36,6 +36,13 @@ export function eventSentence({ structure, kind, roles, changes, nodes, names, d
       shows: () => [enters(ids.bead[0]), " gets a power cell between ", ...list(ids.cell)],
       wander: () => [plain(ids.bead[0]), ", which is hidden, moves to another place of the power diagram"],
     },
+    dual: () => {
+      const [shape, way] = kind.split("_");
+      const begins = way === "begin";
+      const verb = ids.simplex.length > 1 ? "form" : begins ? "becomes" : "is";
+      const says = ` ${verb} ${shape === "edge" ? "an" : "a"} ${shape} of the dual complex${begins ? "" : " no more"}`;
+      return [...list(ids.simplex, begins ? enters : leaves), says];
+    },
     contacts: {
       begin: () => [enters(ids.first[0]), " and ", enters(ids.second[0]), " come into contact"],
       end: () => [leaves(ids.first[0]), " and ", leaves(ids.second[0]), " lose contact"],

@@ -9,6 +9,7 @@ const structures = {
     "The page draws the sides along the axes.",
   layered: "Layered hierarchy: each node of a balanced tree has a sphere around the spheres of its two children.",
   power: "Power diagram: an edge joins two beads whose cells share a face.",
+  dual: "Dual complex: sets of up to four beads whose balls meet within their power cells.",
   contacts: "Contacts: pairs of beads that are at most the cutoff apart, by default those that touch or overlap.",
   crossings: "Crossings: moments at which two bonds that share no bead pass through each other or touch.",
   sorted: "Sorted list: the beads in order along an axis.",
@@ -50,6 +51,10 @@ const kinds = {
     end_minus: "An end of a bond passes through another bond. The strand passes if both bonds at the bead have an end_minus event.",
     touch: "Two bonds touch without passing through each other.",
   },
+  dual: Object.fromEntries(["vertex", "edge", "triangle", "tetrahedron"].flatMap((shape) => [
+    [`${shape}_begin`, `A ${shape} begins: its balls meet within their power cells.`],
+    [`${shape}_end`, `A ${shape} ends: its balls no longer meet within their power cells.`],
+  ])),
   sorted: { interchange: "Two neighbours in the list exchange places." },
   hull: {
     enter: "A bead becomes a corner of the hull.",

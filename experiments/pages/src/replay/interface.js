@@ -1,7 +1,9 @@
 // window.kds: functions for notebooks and tests.
 import { errors } from "../shared/problems.js";
 
-const layers = ["edges", "contacts", "cages", "supports", "ends", "hull", "closest", "order"];
+const layers = [
+  "edges", "balls", "links", "triangles", "tetrahedra", "voids", "contacts", "cages", "supports", "ends", "hull", "closest", "order",
+];
 
 export function interfaceOf(app, ready) {
   return {

@@ -15,6 +15,9 @@ const sentences = {
   closest: "closest pair and its distance",
   order: "ranks along x, below",
   edges: "of the power diagram",
+  links: "edges of the dual complex",
+  triangles: "of the dual complex",
+  voids: "cavities of the union",
   contacts: "join beads in contact",
   hidden: "hatched: no power cell",
   flashes: "of events while playing",
@@ -30,7 +33,8 @@ export class LayerList {
     const has = { boxes: "supports", box: "ends" };
     this.hierarchies = ["cages", "boxes", "spheres"];
     const spheres = meta.structures.some((structure) => structure.spheres);
-    for (const name of ["cages", "boxes", "spheres", "edges", "contacts", "hidden", "hull", "box", "closest", "order"])
+    for (const name of ["cages", "boxes", "spheres", "edges", "links", "triangles", "voids", "contacts", "hidden", "hull", "box",
+      "closest", "order"])
       if (state.layersNamed(has[name] ?? name).length || (name === "spheres" && spheres)) this.names.push(name);
     if (state.structures.some(({ events }) => events.count)) this.names.push("flashes");
     this.boxes = new Map();
@@ -39,7 +43,8 @@ export class LayerList {
     for (const name of this.names) {
       const others = this.names.some((other) => aroundBeads.has(other));
       const tube = meta.names && this.names.includes("contacts") && !others;  // instead of the chain
-      const checked = name === "trace" ? tube : name !== "chain" || (!tube && !this.points);
+      const off = (name === "chain" && (tube || this.points)) || (name === "edges" && this.names.includes("links"));
+      const checked = name === "trace" ? tube : !off;
       const box = make("input", { type: "checkbox", checked, onchange: () => this.switched() });
       const text = sentences[name];
       this.boxes.set(name, box);
@@ -53,7 +58,8 @@ export class LayerList {
   // Cages and contacts fit beads of their true size, but such beads cover edges.
   setBeadSize() {
     const touched = this.names.includes("cages") || this.names.includes("contacts");
-    byId("bead-size").value = this.shows("trace") ? 0.3 : this.points || !this.names.includes("edges") ? 1 : touched ? 0.6 : 0.4;
+    const thin = this.names.includes("triangles") ? 0.25 : touched ? 0.6 : 0.4;
+    byId("bead-size").value = this.shows("trace") ? 0.3 : this.points || !this.names.includes("edges") ? 1 : thin;
   }
 
   switched() {

@@ -221,6 +221,7 @@ export class Panels {
       rows.push(["power cell", hidden ? "none, the bead is hidden" : "yes"]);
     }
     if (has("edges")) rows.push(["neighbours", state.partnersOf("edges", b), buttons]);
+    if (has("links")) rows.push(["links", state.partnersOf("links", b), buttons]);
     if (has("contacts")) rows.push(["contacts", state.partnersOf("contacts", b), buttons]);
     if (has("cages")) {
       const held = state.elements("cages").filter(([, ...basis]) => basis.includes(b)).length;

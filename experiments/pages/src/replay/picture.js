@@ -1,11 +1,12 @@
 // Fills the scene: the layers that have changed, marks of the chosen event and bead, and flashes of recent events.
 import { rgb } from "../shared/palette.js";
 import { noBead } from "./events.js";
+import { facesOf, pairsOf } from "./faces.js";
 
 const flashSeconds = 0.5;
 const mostFlashes = 8;  // of each structure: more would cover the scene
 const flashingCage = 0.5;
-const pairLayers = new Set(["edges", "contacts", "hull", "closest"]);
+const simplexLayers = new Set(["edges", "contacts", "hull", "closest", "links", "triangles", "tetrahedra", "voids"]);
 
 export class Picture {
   constructor(app) {
@@ -21,18 +22,20 @@ export class Picture {
     scene.chain.visible = layers.shows("chain");
     // Lines between balls that touch would be hidden within them.
     scene.contacts.mesh.material.depthTest = scene.shrink < 0.75 || !layers.shows("beads");
-    for (const [name, target] of [["edges", scene.edges], ["contacts", scene.contacts]]) {
+    for (const [name, target] of [["edges", scene.edges], ["links", scene.links], ["contacts", scene.contacts]]) {
       if (layers.shows(name) && layers.isStale(name)) {
         const words = state.layersNamed(name).map(({ layer }) => layer.set.packed);
         const every = words.length === 1 ? words[0] : Uint32Array.from(words.flatMap((list) => [...list]));
         const all = name === "contacts" ? this.app.look.filterContacts(every) : every;
         // Many lines would cover each other, so they are fainter.
-        const [few, most, least] = name === "edges" ? [400, 150, 40] : [60, 230, all.length / 2 > 2000 ? 60 : 110];
+        const bounds = { edges: [400, 150, 40], links: [400, 180, 60], contacts: [60, 230, all.length / 2 > 2000 ? 60 : 110] };
+        const [few, most, least] = bounds[name];
         const alpha = Math.max(least, most * Math.min(1, Math.sqrt(few / (all.length / 2))));
         target.setPairs(all, 2, rgb(scene.colours[name]), alpha);
       }
       target.visible = layers.shows(name);
     }
+    this.drawFaces();
     if (layers.isStale("hidden")) {
       const hidden = layers.shows("hidden") ? state.elements("hidden").flat() : [];
       scene.paintBeads(new Set(hidden));
@@ -41,20 +44,35 @@ export class Picture {
       ? this.app.layers.cages(scene.colours.cage, this.app.dark) : [];
   }
 
+  // Shows triangles, tetrahedra and voids. Faces between two tetrahedra are fainter, so that the surface is seen.
+  drawFaces() {
+    const { layers, scene, state } = this.app;
+    if (!["triangles", "tetrahedra", "voids"].filter((name) => layers.isStale(name)).length) return;
+    const groups = [["triangles", ["triangles", "tetrahedra"], 0.3], ["voids", ["voids"], 0.6]].map(([name, from, alpha]) => {
+      const shown = layers.shows(name) ? from.flatMap((other) => state.layersNamed(other)) : [];
+      const { words, tetrahedra } = facesOf(shown.map(({ layer }) => layer.set));
+      return { words, colour: scene.colours[name], alphas: tetrahedra.map((count) => (count === 2 ? 0.1 : 1) * alpha) };
+    });
+    scene.setFaces(scene.faces, groups);
+  }
+
   // Marks the changes of the chosen event, the neighbours of the chosen bead and, while playing, the events just passed.
   drawMarks() {
     const { scene, state } = this.app;
     const marks = [];
     const rings = [];
+    const faces = [];
     const cages = [...this.cages, ...this.app.structures.spheres()];
     const { goes, comes, glow, chosen } = scene.colours;
     const markEvent = (s, e, alpha) => {
       for (const { name, arity, removed, added } of state.changesOf(s, e)) {
-        if (pairLayers.has(name)) {
-          for (let k = 0; k < removed.length; k += 2)
-            marks.push({ pair: removed.subarray(k, k + 2), colour: goes, dashed: true, alpha });
-          for (let k = 0; k < added.length; k += 2)
-            marks.push({ pair: added.subarray(k, k + 2), colour: comes, dashed: false, alpha });
+        if (simplexLayers.has(name)) {
+          for (const [words, colour, dashed] of [[removed, goes, true], [added, comes, false]]) {
+            for (let at = 0; at < words.length; at += arity)
+              for (const pair of pairsOf(words.subarray(at, at + arity))) marks.push({ pair, colour, dashed, alpha });
+            const sides = facesOf([{ packed: words, arity }]);
+            faces.push({ words: sides.words, colour, alphas: sides.tetrahedra.map(() => 0.4 * alpha) });
+          }
         } else if (name === "cages" && added.length) {
           const basis = [...added.subarray(1, arity)].filter((bead) => bead !== noBead);
           const strength = state.chosen ? alpha : flashingCage * alpha;
@@ -70,7 +88,7 @@ export class Picture {
     };
     if (this.app.bead.number >= 0) {
       const b = this.app.bead.number;
-      for (const name of ["edges", "contacts"]) {
+      for (const name of ["edges", "links", "contacts"]) {
         for (const other of this.app.layers.shows(name) ? state.partnersOf(name, b) : [])
           marks.push({ pair: [b, other], colour: chosen, dashed: false, alpha: 0.8 });
       }
@@ -80,6 +98,7 @@ export class Picture {
     if (this.app.bead.number >= 0) rings.push({ bead: this.app.bead.number, colour: chosen, alpha: 1 });
     this.app.look.addMarks(marks, rings);
     scene.setMarks(marks, rings);
+    scene.setFaces(scene.markedFaces, faces);
     scene.setCages(cages);
   }
 

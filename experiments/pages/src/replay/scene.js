@@ -1,4 +1,4 @@
-// The three-dimensional picture: camera, beads and the layers over them, ten draw calls at most.
+// The three-dimensional picture: camera, beads and the layers over them, thirteen draw calls at most.
 import {
   Color,
   DataTexture,
@@ -87,6 +87,20 @@ export class Scene {
     });
   }
 
+  // Makes a layer of faces between three beads.
+  triangles(order, depthTest = true) {
+    return new Instances({
+      vertex: shaders.faceVertex,
+      fragment: shaders.faceFragment,
+      uniforms: this.uniforms,
+      attributes: { beads: [Uint32Array, 3, false], tint: [Uint8Array, 4, true] },
+      corners: Float32Array.of(1, 0, 0, 0, 1, 0, 0, 0, 1),
+      transparent: true,
+      depthTest,
+      order,
+    });
+  }
+
   makeLayers(traces) {
     this.uniforms = {
       balls: { value: this.texture },
@@ -112,6 +126,7 @@ export class Scene {
       return count > manyPairs ? new Lines({ uniforms: this.uniforms, order }) : segments(order, thickness, depthTest);
     };
     this.edges = pairs("edges", 2, 1.2, true);
+    this.links = pairs("links", 2, 1.2, true);
     this.contacts = pairs("contacts", 3, 3, false);
     this.cages = new Instances({
       vertex: shaders.cageVertex,
@@ -121,6 +136,8 @@ export class Scene {
       transparent: true,
       order: 4,
     });
+    this.faces = this.triangles(1.5);
+    this.markedFaces = this.triangles(5.5, false);
     this.marks = segments(6, 4.5, false);
     this.halos = new Instances({
       vertex: shaders.haloVertex,
@@ -131,8 +148,8 @@ export class Scene {
       depthTest: false,
       order: 5,
     });
-    for (const layer of [this.beads, this.trace, this.chain, this.edges, this.contacts, this.cages, this.marks, this.halos])
-      this.three.add(layer.mesh);
+    for (const layer of [this.beads, this.trace, this.chain, this.faces, this.edges, this.links, this.contacts, this.cages,
+        this.markedFaces, this.marks, this.halos]) this.three.add(layer.mesh);
     this.fillBeads();
     this.fillChain();
   }
@@ -190,6 +207,20 @@ export class Scene {
       layer.array("dash")[k] = dashed ? 1 : 0;
     });
     layer.changed(lines.length, "ends", "tint", "dash");
+    layer.visible = true;
+  }
+
+  // Shows groups of faces, {words, colour, alphas}: three beads and an alpha for each face.
+  setFaces(layer, groups) {
+    const count = groups.reduce((sum, { alphas }) => sum + alphas.length, 0);
+    layer.reserve(count);
+    let k = 0;
+    for (const { words, colour, alphas } of groups) {
+      layer.array("beads").set(words, 3 * k);
+      const own = rgb(colour);
+      for (const alpha of alphas) layer.array("tint").set([...own, 255 * alpha], 4 * k++);
+    }
+    layer.changed(count, "beads", "tint");
     layer.visible = true;
   }
 

@@ -154,6 +154,31 @@ void main() {
   pixel = vec4(faded(tint, depth), alpha);
 }`;
 
+// Faces: triangles between three beads, alike on both sides.
+export const faceVertex = `${header}
+in vec3 corner;  // the share of each bead
+in uvec3 beads;
+in vec4 tint;
+flat out vec4 colour;
+out float depth;
+void main() {
+  mat3 ends = mat3(ball(beads.x).xyz, ball(beads.y).xyz, ball(beads.z).xyz);
+  vec4 place = viewMatrix * vec4(ends * corner, 1.0);
+  vec3 normal = normalize(mat3(viewMatrix) * cross(ends[1] - ends[0], ends[2] - ends[0]));
+  float light = 0.6 + 0.5 * abs(dot(normal, normalize(vec3(-0.4, 0.6, 0.7))));
+  depth = place.z;
+  colour = vec4(tint.rgb * light, tint.a);
+  gl_Position = projectionMatrix * place;
+}`;
+
+export const faceFragment = `${header}${depthCue}
+flat in vec4 colour;
+in float depth;
+out vec4 pixel;
+void main() {
+  pixel = vec4(faded(colour.rgb, depth), colour.a);
+}`;
+
 // Cages: spheres that are clear in the middle.
 export const cageVertex = `${header}
 in vec2 corner;
