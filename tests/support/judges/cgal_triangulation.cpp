@@ -1,9 +1,9 @@
 #include "tests/support/judges/cgal_triangulation.h"
 
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Fixed_alpha_shape_3.h>
 #include <CGAL/Fixed_alpha_shape_cell_base_3.h>
 #include <CGAL/Fixed_alpha_shape_vertex_base_3.h>
-#include <CGAL/Gmpq.h>
 #include <CGAL/Regular_triangulation_3.h>
 #include <CGAL/Regular_triangulation_cell_base_3.h>
 #include <CGAL/Regular_triangulation_vertex_base_3.h>
@@ -16,19 +16,24 @@ namespace kds::test {
 
 namespace {
 
-using Geometry = CGAL::Simple_cartesian<CGAL::Gmpq>;
+using Filtered = CGAL::Exact_predicates_exact_constructions_kernel;
+using Number = Filtered::FT::ET;  // rational
+using Plain = CGAL::Simple_cartesian<Number>;
+template <class Geometry>
 using NamedVertex =
     CGAL::Triangulation_vertex_base_with_info_3<BeadId, Geometry,
                                                 CGAL::Regular_triangulation_vertex_base_3<Geometry>>;
-using PlainCell = CGAL::Regular_triangulation_cell_base_3<Geometry>;
+template <class Geometry>
+using CellBase = CGAL::Regular_triangulation_cell_base_3<Geometry>;
 
 template <class Triangulation>
 void insert_all(Triangulation& triangulation, std::span<const ExactPoint> points) {
-  const auto number = [](const Rational& x) { return CGAL::Gmpq(x.get_mpq_t()); };
+  using Geometry = typename Triangulation::Geom_traits;
+  const auto number = [](const Rational& x) { return typename Geometry::FT(Number(x.get_mpq_t())); };
   for (BeadId b = 0; b < points.size(); ++b) {
     const ExactPoint& p = points[b];
-    const auto v = triangulation.insert(Geometry::Weighted_point_3(
-        Geometry::Point_3(number(p[0]), number(p[1]), number(p[2])), number(p[3])));
+    const auto v = triangulation.insert(typename Geometry::Weighted_point_3(
+        typename Geometry::Point_3(number(p[0]), number(p[1]), number(p[2])), number(p[3])));
     if (v != typename Triangulation::Vertex_handle()) v->info() = b;
   }
 }
@@ -36,10 +41,10 @@ void insert_all(Triangulation& triangulation, std::span<const ExactPoint> points
 }  // namespace
 
 std::vector<std::array<BeadId, 4>> cgal_alpha_complex(std::span<const ExactPoint> points) {
-  using Vertex = CGAL::Fixed_alpha_shape_vertex_base_3<Geometry, NamedVertex>;
-  using Cell = CGAL::Fixed_alpha_shape_cell_base_3<Geometry, PlainCell>;
+  using Vertex = CGAL::Fixed_alpha_shape_vertex_base_3<Filtered, NamedVertex<Filtered>>;
+  using Cell = CGAL::Fixed_alpha_shape_cell_base_3<Filtered, CellBase<Filtered>>;
   using Triangulation =
-      CGAL::Regular_triangulation_3<Geometry, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
+      CGAL::Regular_triangulation_3<Filtered, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
   Triangulation triangulation;
   insert_all(triangulation, points);
   CGAL::Fixed_alpha_shape_3<Triangulation> shape(triangulation, 0);  // takes the triangulation over
@@ -67,8 +72,8 @@ std::vector<std::array<BeadId, 4>> cgal_alpha_complex(std::span<const ExactPoint
 }
 
 CgalCells cgal_regular_cells(std::span<const ExactPoint> points) {
-  using Triangulation =
-      CGAL::Regular_triangulation_3<Geometry, CGAL::Triangulation_data_structure_3<NamedVertex, PlainCell>>;
+  using Triangulation = CGAL::Regular_triangulation_3<
+      Plain, CGAL::Triangulation_data_structure_3<NamedVertex<Plain>, CellBase<Plain>>>;
   Triangulation triangulation;
   insert_all(triangulation, points);
   CgalCells result;
