@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "certificates/exact/exact_time.h"
 #include "motions/curves/bezier_motion.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "tests/support/judges/cgal_triangulation.h"
