@@ -32,7 +32,7 @@
 namespace kds {
 
 template <int Dimension>
-class DualTopology final : public StructureBase, private ComplexFollower {
+class DualTopology final : public StructureBase, public BeadEdits, private ComplexFollower {
  public:
   using Number = FollowedComponents::Number;
 
@@ -76,6 +76,12 @@ class DualTopology final : public StructureBase, private ComplexFollower {
   /// Takes linear time.
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
+  // Edits: the beads are those of the complex, which follows them and reports what changes.
+  void leave_out(BeadId bead) override { complex_.leave_out(bead); }
+  void insert(BeadId bead) override { complex_.insert(bead); }
+  void erase(BeadId bead) override { complex_.erase(bead); }
+  [[nodiscard]] bool is_absent(BeadId bead) const override { return complex_.is_absent(bead); }
+
  private:
   class ComponentGraph;
   class VoidGraph;
@@ -85,6 +91,8 @@ class DualTopology final : public StructureBase, private ComplexFollower {
     std::set<SimplexBeads> void_cells;
   };
 
+  void release(std::span<const BeadId>) override {}
+  void take_up(std::span<const BeadId>) override {}
   void exchanged(std::span<const CellId> gone, std::span<const CellId> made, bool is_flip) override;
   void replaced_all() override;
   void settled(const ComplexChange& change) override;

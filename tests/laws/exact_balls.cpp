@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace kds::test {
@@ -367,6 +368,34 @@ std::optional<std::string> not_dual(const ExactBalls& balls, const Beads& presen
   std::sort(found.begin(), found.end());
   if (found == expected) return std::nullopt;
   return fmt::format("the complex has the simplices {}, brute force finds {}", found, expected);
+}
+
+std::array<std::int64_t, 3> betti_by_ranks(const std::vector<Beads>& simplices) {
+  std::array<std::int64_t, 5> count{}, rank{};  // of simplices, and of their boundaries, by number of beads
+  std::map<Beads, std::set<Beads>> columns;     // reduced boundaries, by their last facet
+  for (const Beads& simplex : simplices) {
+    ++count[simplex.size()];
+    std::set<Beads> boundary;
+    for (std::size_t i = 0; i < simplex.size() && simplex.size() > 1; ++i) {
+      Beads facet = simplex;
+      facet.erase(facet.begin() + static_cast<std::ptrdiff_t>(i));
+      boundary.insert(facet);
+    }
+    while (!boundary.empty()) {
+      const auto [column, is_new] = columns.emplace(*boundary.rbegin(), boundary);
+      if (is_new) {
+        ++rank[simplex.size()];
+        break;
+      }
+      std::set<Beads> sum;
+      std::set_symmetric_difference(boundary.begin(), boundary.end(), column->second.begin(),
+                                    column->second.end(), std::inserter(sum, sum.end()));
+      boundary = std::move(sum);
+    }
+  }
+  std::array<std::int64_t, 3> betti{};
+  for (std::size_t size = 1; size <= 3; ++size) betti[size - 1] = count[size] - rank[size] - rank[size + 1];
+  return betti;
 }
 
 std::optional<std::string> not_smallest(const ExactBalls& balls, const BeadRange& node, const Beads& basis) {

@@ -3,7 +3,9 @@
 // by brute force.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -111,6 +113,9 @@ using Beads = std::vector<BeadId>;
 [[nodiscard]] std::optional<std::string> not_dual(const ExactBalls& balls, const Beads& present,
                                                   const std::vector<Beads>& cells,
                                                   const std::vector<Beads>& simplices);
+/// Returns the Betti numbers of a complex over the field of two elements, from the ranks of its boundary
+/// matrices. Each simplex is listed by its ascending beads, with all its faces.
+[[nodiscard]] std::array<std::int64_t, 3> betti_by_ranks(const std::vector<Beads>& simplices);
 /// Explains why the smallest sphere through the basis is not the smallest one around a node's beads, or
 /// returns nothing. All radii must be equal.
 [[nodiscard]] std::optional<std::string> not_smallest(const ExactBalls& balls, const BeadRange& node,

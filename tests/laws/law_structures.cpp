@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "structures/crossings/crossings.h"
+#include "structures/dual_complex/dual_topology.h"
 #include "structures/hull/convex_hull.h"
 #include "structures/power_diagram/power_diagram.h"
 
@@ -95,6 +96,24 @@ std::optional<std::string> fault_of_dual(const Judged& judged) {
   return not_dual(judged.balls, judged.present, cells, simplices);
 }
 
+template <int Dimension>
+std::optional<std::string> fault_of_betti(const DualTopology<Dimension>& topology,
+                                          const RunningStructure& complex) {
+  std::vector<Beads> simplices;
+  for (const auto& layer : complex.replay_elements(false))
+    for (const ReplayElement& simplex : layer)
+      simplices.emplace_back(simplex.begin(), std::find(simplex.begin(), simplex.end(), no_bead));
+  const auto found = topology.betti(), expected = betti_by_ranks(simplices);
+  if (found == expected) return std::nullopt;
+  return fmt::format("the Betti numbers are {}, ranks of the boundaries give {}", found, expected);
+}
+
+std::optional<std::string> fault_of_topology(const Judged& judged) {
+  if (const auto* plane = dynamic_cast<const DualTopology<2>*>(&kinetic(judged.structure)))
+    return fault_of_betti(*plane, *judged.base);
+  return fault_of_betti(dynamic_cast<const DualTopology<3>&>(kinetic(judged.structure)), *judged.base);
+}
+
 }  // namespace
 
 std::string LawStructure::title() const {
@@ -116,6 +135,7 @@ const std::vector<LawStructure>& law_structures() {
       {"boxes", {.directions = 7}, Edits::beads, true, fault_of_boxes},
       {"power", {}, Edits::beads, false, fault_of_power},
       {"dual", {}, Edits::beads, false, fault_of_dual, 40, 16},
+      {"topology", {}, Edits::beads, false, fault_of_topology, 10, 16},
       {"contacts", {}, Edits::beads, true, fault_of_contacts},
       {"crossings", {}, Edits::none},
   };

@@ -143,7 +143,7 @@ class Subject {
         row_(row),
         spec_(*structure_registry().find(row.name)),
         judged_(judged && row.fault),
-        index_(spec_.stands_on.empty() ? 0 : 1),
+        index_(bases_of(spec_)),
         counts_(counts) {}
 
   void expect_laws(std::uint64_t seed) {
@@ -173,22 +173,27 @@ class Subject {
   }
 
  private:
+  /// Returns the number of structures on which the structure stands.
+  [[nodiscard]] static std::size_t bases_of(const StructureSpec& spec) {
+    return spec.stands_on.empty() ? 0 : 1 + bases_of(*structure_registry().find(spec.stands_on));
+  }
   [[nodiscard]] const RunningStructure& subject(const KineticRun& run) const { return run.running(index_); }
   [[nodiscard]] const RunningStructure* base_of(const KineticRun& run) const {
-    return index_ == 0 ? nullptr : &run.running(0);
+    return index_ == 0 ? nullptr : &run.running(index_ - 1);
   }
-  /// Makes the structure on which this one stands, or returns null if there is none.
-  [[nodiscard]] std::unique_ptr<RunningStructure> base_in(Simulator& simulator,
-                                                          const SceneMotion::Ref& motion) const {
-    if (spec_.stands_on.empty()) return nullptr;
-    return structure_registry().find(spec_.stands_on)->make(simulator, scene_, motion, row_.settings);
-  }
-  [[nodiscard]] std::unique_ptr<RunningStructure> make_in(Simulator& simulator,
-                                                          const SceneMotion::Ref& motion,
-                                                          RunningStructure* base) const {
-    StructureSettings settings = row_.settings;
-    settings.base = base == nullptr ? nullptr : &base->kinetic();
-    return spec_.make(simulator, scene_, motion, settings);
+  /// Makes the structure, which comes last, and those on which it stands.
+  [[nodiscard]] std::vector<std::unique_ptr<RunningStructure>> make_in(Simulator& simulator,
+                                                                       const SceneMotion::Ref& motion) const {
+    std::vector<const StructureSpec*> specs{&spec_};
+    while (!specs.back()->stands_on.empty())
+      specs.push_back(structure_registry().find(specs.back()->stands_on));
+    std::vector<std::unique_ptr<RunningStructure>> made;
+    for (auto spec = specs.rbegin(); spec != specs.rend(); ++spec) {
+      StructureSettings settings = row_.settings;
+      settings.base = made.empty() ? nullptr : &made.back()->kinetic();
+      made.push_back((*spec)->make(simulator, scene_, motion, settings));
+    }
+    return made;
   }
   [[nodiscard]] KineticRunOptions options(Kernel kernel, AuditMode audits) const {
     return {{row_.name}, kernel, audits, row_.settings};
@@ -253,8 +258,8 @@ class Subject {
     note_ending(outcome, [&] {
       Simulator simulator(AuditMode::frames);
       const auto motion = make_scene_motion(scene_);
-      const auto base = base_in(simulator, motion->ref());
-      const auto structure = make_in(simulator, motion->ref(), base.get());
+      const auto structures = make_in(simulator, motion->ref());
+      const auto& structure = structures.back();
       motion->load(0);
       KnownEvents(simulator).build_for_replay();
       outcome.add_dumps(structure->dump(0));
@@ -382,8 +387,8 @@ class Subject {
     const auto twin = [&] {
       Simulator simulator;
       simulator.exact_work().set_limit(most_work);
-      const auto base = base_in(simulator, motion);
-      const auto structure = make_in(simulator, motion, base.get());
+      const auto structures = make_in(simulator, motion);
+      const auto& structure = structures.back();
       if (edits != nullptr)
         for (BeadId b = 0; b < scene_.bead_count(); ++b)
           if (edits->is_absent(b)) edits_of(structure->kinetic())->leave_out(b);

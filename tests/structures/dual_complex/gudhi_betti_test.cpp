@@ -16,7 +16,7 @@ namespace kds::test {
 namespace {
 
 using Simplices = std::vector<std::array<BeadId, 4>>;
-using Balls = std::vector<ExactPoint>;
+using WeightedPoints = std::vector<ExactPoint>;
 
 class GudhiBetti : public testing::Test {
  protected:
@@ -65,8 +65,8 @@ TEST_F(GudhiBetti, RefusesWhatIsNoComplex) {
 }
 
 /// Returns balls on the grid {-1, 0, 1}^3, at the places where at least `least` coordinates are not 0.
-Balls grid(int least, const Rational& weight) {
-  Balls balls;
+WeightedPoints grid(int least, const Rational& weight) {
+  WeightedPoints balls;
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z)
@@ -75,7 +75,7 @@ Balls grid(int least, const Rational& weight) {
 }
 
 /// Compares GUDHI's complex with CGAL's, whose homology GUDHI computes, and returns the Betti numbers.
-Betti compared(const Balls& balls) {
+Betti compared(const WeightedPoints& balls) {
   const Betti betti = gudhi_betti_of_union(balls);
   const Simplices complex = cgal_alpha_complex(balls);
   EXPECT_EQ(gudhi_betti(complex), betti);
@@ -87,15 +87,15 @@ Betti compared(const Balls& balls) {
 }
 
 TEST_F(GudhiBetti, OfKnownUnions) {
-  const Balls corners = grid(3, Rational(1, 4)), frame = grid(2, Rational(1, 4)),
-              shell = grid(1, Rational(1, 4));
+  const WeightedPoints corners = grid(3, Rational(1, 4)), frame = grid(2, Rational(1, 4)),
+                       shell = grid(1, Rational(1, 4));
   EXPECT_EQ(compared(corners), (Betti{8, 0, 0}));
   EXPECT_EQ(compared(frame), (Betti{1, 5, 0}));  // balls that touch along the edges of a cube
   EXPECT_EQ(compared(shell), (Betti{1, 23, 0}));
   EXPECT_EQ(compared(grid(1, Rational(3, 4))), (Betti{1, 0, 1}));
   EXPECT_EQ(compared(grid(0, Rational(3, 4))), (Betti{1, 0, 0}));
   EXPECT_EQ(compared(grid(0, -1)), (Betti{0, 0, 0}));
-  Balls ring;  // a closed chain
+  WeightedPoints ring;  // a closed chain
   for (const auto& [x, y] : {std::pair(4, 0), {3, 3}, {0, 4}, {-3, 3}, {-4, 0}, {-3, -3}, {0, -4}, {3, -3}})
     ring.push_back({x, y, x > 0 ? 1 : 0, 3});
   EXPECT_EQ(compared(ring), (Betti{1, 1, 0}));
@@ -108,7 +108,7 @@ TEST_F(GudhiBetti, OfKnownUnions) {
 }
 
 TEST_F(GudhiBetti, RefusesFlatUnions) {
-  const Balls flat{{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}};
+  const WeightedPoints flat{{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}};
   EXPECT_THROW(static_cast<void>(gudhi_betti_of_union(flat)), std::invalid_argument);
 }
 
@@ -117,7 +117,7 @@ TEST_F(GudhiBetti, OfRandomUnions) {
   std::mt19937 random(11);
   Betti sum{};
   for (int round = 0; round < 60; ++round) {
-    Balls balls(10 + random() % 50);
+    WeightedPoints balls(10 + random() % 50);
     for (ExactPoint& ball : balls) {
       for (std::size_t axis = 0; axis < 3; ++axis) ball[axis] = Rational(random() % 1000, 7);
       if (round % 2 == 0) ball[random() % 3] = Rational(random() % 2 * 1000, 7);
