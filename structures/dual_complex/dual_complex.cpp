@@ -587,6 +587,54 @@ std::vector<SimplexBeads> DualComplex<Dimension>::simplices(int dimension) const
 }
 
 template <int Dimension>
+ComplexSimplices DualComplex<Dimension>::simplices_with_faces() const requires(Dimension == 3) {
+  if (replayed_) throw std::logic_error("a replayed complex knows no faces");
+  ComplexSimplices result;
+  std::array<std::vector<std::uint32_t>, 3> places;  // of edges and triangles in the result
+  const auto visit_all = [&]<std::size_t N>(int dimension, auto& list, std::integral_constant<std::size_t, N>,
+                                            auto add) {
+    if (known_[static_cast<std::size_t>(dimension)].empty()) return;
+    if (dimension < 3) places[static_cast<std::size_t>(dimension)].resize(faces_.count(dimension));
+    for_all(dimension, [&](SimplexName simplex) {
+      if (!of(simplex).belongs) return;
+      if (dimension < 3)
+        places[static_cast<std::size_t>(dimension)][simplex.number] = static_cast<std::uint32_t>(list.size());
+      const SimplexBeads& beads = faces_.beads_of(simplex);
+      std::array<std::uint32_t, N> facets{};  // facets[i] is opposite to beads[i]
+      if (dimension > 1)
+        faces_.for_facets(simplex, [&](SimplexName facet) {
+          const SimplexBeads& others = faces_.beads_of(facet);
+          const auto opposite =
+              std::mismatch(beads.begin(), beads.end(), others.begin()).first - beads.begin();
+          facets[static_cast<std::size_t>(opposite)] =
+              places[static_cast<std::size_t>(dimension - 1)][facet.number];
+        });
+      add(first_of<N>(beads), facets);
+    });
+  };
+  visit_all(0, result.vertices, std::integral_constant<std::size_t, 1>(),
+            [&](const auto& beads, const auto&) { result.vertices.push_back(beads[0]); });
+  visit_all(1, result.edges, std::integral_constant<std::size_t, 2>(),
+            [&](const auto& beads, const auto&) { result.edges.push_back(beads); });
+  visit_all(2, result.triangles, std::integral_constant<std::size_t, 3>(),
+            [&](const auto& beads, const auto& facets) {
+              result.triangles.push_back({beads, facets});
+            });
+  visit_all(3, result.tetrahedra, std::integral_constant<std::size_t, 4>(),
+            [&](const auto& beads, const auto& facets) {
+              auto& tetrahedron = result.tetrahedra.emplace_back();
+              tetrahedron.beads = beads;
+              tetrahedron.triangles = facets;
+              for (std::size_t e = 0; e < 6; ++e) {
+                // The edge is opposite to bead l in the triangle opposite to bead k; k < l.
+                const auto [k, l] = tetrahedron_edges[5 - e];
+                tetrahedron.edges[e] = result.triangles[facets[k]].edges[l - 1];
+              }
+            });
+  return result;
+}
+
+template <int Dimension>
 std::vector<BeadId> DualComplex<Dimension>::state() const {
   std::vector<BeadId> numbers;
   for (int dimension = 0; dimension <= Dimension; ++dimension) {
