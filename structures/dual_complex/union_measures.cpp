@@ -229,7 +229,9 @@ Meeting meet(const TriangleTerms& t, const std::array<double, 3>& radii, Distanc
     if (r == 0) continue;
     const double corner =
         std::atan2(t.half_chord * t.sine[i] / r, to_j / r * (to_k / r) - t.cosine[i]);  // of the lens
-    m.lens[i] = 2 * r * (r * corner - m.half_angle[k] * to_j - m.half_angle[j] * to_k);
+    // The corner's angle is uncertain if a circle is tiny, but then its cap is tiny too.
+    m.lens[i] = std::clamp(2 * r * (r * corner - m.half_angle[k] * to_j - m.half_angle[j] * to_k), 0.0,
+                           std::max(0.0, cap(r, std::max(to_j, to_k))));
   }
   return m;
 }

@@ -91,17 +91,19 @@ long double integral(Function f, const std::vector<double>& heights, double low,
 UnionOfBalls::UnionOfBalls(const Eigen::Matrix3Xd& centers, std::vector<double> radii)
     : centers_(centers), radii_(std::move(radii)) {
   const std::size_t n = radii_.size();
+  heights_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Vector a = center(centers_, i);
     for (const double side : {-1, 1})
-      heights_.push_back(centers_(2, static_cast<Eigen::Index>(i)) + side * radii_[i]);
+      heights_[i].push_back(centers_(2, static_cast<Eigen::Index>(i)) + side * radii_[i]);
     for (std::size_t j = i + 1; j < n; ++j) {
       const auto c = circle_of(a, radii_[i], center(centers_, j), radii_[j]);
       if (!c || c->squared_radius < 0) continue;
       const Real steep = 1 - c->axis[2] * c->axis[2],
                  rise = steep > 0 ? Real(sqrt(c->squared_radius * steep)) : Real(0);
       for (const int side : {-1, 1})
-        heights_.push_back(static_cast<double>(Real(c->center[2] + side * rise)));
+        for (const std::size_t b : {i, j})
+          heights_[b].push_back(static_cast<double>(Real(c->center[2] + side * rise)));
       for (std::size_t k = j + 1; k < n; ++k) {
         // The radical plane of i and k cuts the circle's plane in a line.
         const auto other = circle_of(a, radii_[i], center(centers_, k), radii_[k]);
@@ -114,8 +116,19 @@ UnionOfBalls::UnionOfBalls(const Eigen::Matrix3Xd& centers, std::vector<double> 
         const Vector foot = sum(c->center, across, to_line);
         const Real chord = c->squared_radius - to_line * to_line * squared;
         if (chord < 0) continue;
-        for (const int side : {-1, 1})
-          heights_.push_back(static_cast<double>(Real(foot[2] + side * along[2] * sqrt(chord / squared))));
+        for (const int side : {-1, 1}) {
+          const Vector corner = sum(foot, along, side * sqrt(chord / squared));
+          const bool is_hidden = [&] {  // deep in another ball, so on no boundary
+            for (std::size_t l = 0; l < n; ++l) {
+              const Vector to = sum(corner, center(centers_, l), -1);
+              if (l != i && l != j && l != k && dot(to, to) < Real(0.999) * radii_[l] * radii_[l])
+                return true;
+            }
+            return false;
+          }();
+          if (is_hidden) continue;
+          for (const std::size_t b : {i, j, k}) heights_[b].push_back(static_cast<double>(corner[2]));
+        }
       }
     }
   }
@@ -143,7 +156,7 @@ double UnionOfBalls::area(std::size_t i) const {
     for (const auto& [begin, end] : outside(std::move(arcs))) angle += end - begin;
     return angle;
   };
-  return static_cast<double>(r * integral(exposed, heights_, c.z() - radii_[i], c.z() + radii_[i]));
+  return static_cast<double>(r * integral(exposed, heights_[i], c.z() - radii_[i], c.z() + radii_[i]));
 }
 
 double UnionOfBalls::contact(std::size_t i, std::size_t j) const {
@@ -271,8 +284,11 @@ double UnionOfBalls::volume() const {
     }
     return doubled / 2;
   };
-  const auto [low, high] = std::minmax_element(heights_.begin(), heights_.end());
-  return static_cast<double>(integral(cross_section, heights_, *low, *high));
+  std::vector<double> heights;
+  for (const auto& of_ball : heights_) heights.insert(heights.end(), of_ball.begin(), of_ball.end());
+  std::sort(heights.begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  return static_cast<double>(integral(cross_section, heights, heights.front(), heights.back()));
 }
 
 }  // namespace kds::test

@@ -27,7 +27,9 @@ class UnionOfBalls {
  private:
   Eigen::Matrix3Xd centers_;
   std::vector<double> radii_;
-  std::vector<double> heights_;  // where cross-sections change: ends of spheres and circles, corners
+  // Where cross-sections change, for each ball: the ends of its sphere and its circles, and its exposed
+  // corners.
+  std::vector<std::vector<double>> heights_;
 };
 
 }  // namespace kds::test
