@@ -41,6 +41,8 @@ int run_command(const Arguments& arguments);
 /// `kds stability`: compares the kernels on inputs for which the arithmetic is hardest. Throws
 /// std::runtime_error if a row does not hold.
 int stability_command(const Arguments& arguments);
+/// `kds surface`: measures areas and volumes of the union of balls.
+int surface_command(const Arguments& arguments);
 /// `kds sweep`: runs commands over many inputs and settings. Returns 75 if a signal or --time-budget ended
 /// it.
 int sweep_command(const Arguments& arguments);

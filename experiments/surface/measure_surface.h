@@ -1,0 +1,66 @@
+#pragma once
+// Measures areas and volumes at times of a trajectory for `kds surface`.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/program/input_options.h"
+#include "motions/scene/scene.h"
+#include "structures/contacts/contact_elements.h"
+#include "structures/dual_complex/union_measures.h"
+
+namespace kds {
+
+struct SurfaceTask : InputOptions {
+  std::optional<double> probe;  ///< --probe; empty if not given
+  std::vector<double> times;    ///< --at, ascending: in frames that are read, from 0; empty for all frames
+  FrameMotion motion = FrameMotion::linear;
+  std::optional<std::size_t> threads;  ///< empty for all cores
+
+  /// All atoms with their van der Waals radii.
+  SurfaceTask() {
+    radius = "element";
+    reading.selection = Selection::all;
+  }
+  /// Returns --probe or its default: 1.4, the radius of water in angstrom, for van der Waals radii; otherwise
+  /// 0.
+  [[nodiscard]] double probe_length() const { return probe.value_or(radius == "element" ? 1.4 : 0); }
+};
+
+/// The measures at one time. Areas and volumes are in powers of the input's unit of length.
+struct SurfaceFrame {
+  double frame = 0;  ///< number in the file, with a fraction between frames
+  std::optional<double> picoseconds;
+  double area = 0, volume = 0;
+  std::vector<double> residue_areas, residue_volumes;                 ///< empty without residues
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> between;  ///< contact area of pairs of necklaces
+  UnionMeasures measures;                     ///< of beads and edges, if they are kept
+  std::vector<ComplexSimplices::Edge> edges;  ///< those of `measures.contacts`
+
+  /// Returns the contact area between different necklaces.
+  [[nodiscard]] double buried() const;
+};
+
+struct SurfaceReport {
+  std::unique_ptr<const Scene> scene;
+  std::string unit;                         ///< of lengths; empty if they have none
+  ContactElements chains;                   ///< the necklaces
+  std::optional<ContactElements> residues;  ///< none if a bead has no residue
+  std::vector<SurfaceFrame> frames;         ///< one for each time
+};
+
+/// Reads the inputs and measures all times on several threads. If `keep`, the frames keep the measures of
+/// beads and contacts. Each warning goes to `warn` as one line. Throws InputError, also if the scene is
+/// planar.
+[[nodiscard]] SurfaceReport measure_surface(const SurfaceTask& task, bool keep,
+                                            const std::function<void(std::size_t, std::size_t)>& progress,
+                                            const std::function<void(const std::string&)>& warn);
+
+}  // namespace kds
