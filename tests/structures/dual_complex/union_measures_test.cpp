@@ -193,6 +193,66 @@ TEST(UnionMeasures, CountEqualBallsOnce) {
   EXPECT_EQ(std::count(found.volumes.begin(), found.volumes.end(), 0.0), 6);
 }
 
+/// Compares with the published output of Voronota-LT's basic example, up to a unit of its sixth figure:
+/// kliment-olechnovic/voronota on GitHub,
+/// expansion_lt/tests/output/api_usage_examples/example_basic_output.txt at 3677817e, MIT License. The balls
+/// have a probe of radius 1.
+TEST(UnionMeasures, EqualThoseOfVoronotaLt) {
+  Scene scene;
+  scene.add(0, 0, 2, 2);
+  for (const auto& [x, y] : std::vector<std::pair<double, double>>{{0, 1},
+                                                                   {0.382683, 0.92388},
+                                                                   {0.707107, 0.707107},
+                                                                   {0.92388, 0.382683},
+                                                                   {1, 0},
+                                                                   {0.92388, -0.382683},
+                                                                   {0.707107, -0.707107},
+                                                                   {0.382683, -0.92388},
+                                                                   {0, -1},
+                                                                   {-0.382683, -0.92388},
+                                                                   {-0.707107, -0.707107},
+                                                                   {-0.92388, -0.382683},
+                                                                   {-1, 0},
+                                                                   {-0.92388, 0.382683},
+                                                                   {-0.707107, 0.707107},
+                                                                   {-0.382683, 0.92388}})
+    scene.add(x, y, 0, 1.5);
+  const ComplexSimplices complex = scene.complex();
+  const UnionMeasures found = measure_union(scene.centers, scene.radii, complex);
+  // Rows of the file: contacts 0-1, 0-2, 0-3 and their images under the ring's symmetry, neighbours in the
+  // ring, and contacts across it that exist because of rounded coordinates.
+  const std::array<double, 3> with_cap{0.747721, 0.747722, 0.747723};
+  const std::array<double, 3> areas{3.29195, 3.29196, 3.29197};
+  const auto kind = [](BeadId bead) {
+    return bead % 4 == 1 ? 0U : bead % 2 == 0 ? 1U : 2U;
+  };  // of a ball of the ring
+  const auto near = [](double value, double printed) {
+    EXPECT_NEAR(value, printed, std::pow(10, std::floor(std::log10(printed)) - 5));
+  };
+  near(found.areas[0], 34.8168);
+  near(found.volumes[0], 29.2302);
+  for (BeadId bead = 1; bead <= 16; ++bead) {
+    near(found.areas[bead], areas[kind(bead)]);
+    near(found.volumes[bead], 2.48022);
+  }
+  ASSERT_EQ(complex.edges.size(), 45U);  // one more: four centres are on one circle
+  for (std::size_t e = 0; e < complex.edges.size(); ++e) {
+    const auto [i, j] = complex.edges[e];
+    const BeadId apart = std::min(j - i, 16 - (j - i));
+    if (i == 0)
+      near(found.contacts[e], with_cap[kind(j)]);
+    else if (apart == 1)
+      near(found.contacts[e], 5.0216);
+    else  // of slivers, the file shows more figures than doubles have
+      EXPECT_NEAR(found.contacts[e],
+                  apart == 2   ? 3.34203e-07
+                  : apart == 4 ? 7.31194e-07
+                               : 0,
+                  1e-9)
+          << i << " " << j;
+  }
+}
+
 TEST(UnionMeasures, RefuseWrongNumbers) {
   Scene scene;
   scene.add(0, 0, 0, 1);
