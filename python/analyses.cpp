@@ -26,6 +26,7 @@
 #include "experiments/scenes/generate_command.h"
 #include "experiments/scenes/info_command.h"
 #include "experiments/scenes/scene_info.h"
+#include "experiments/surface/surface_command.h"
 #include "experiments/trade/trade_command.h"
 #include "experiments/trade/trade_report.h"
 #include "experiments/update/compare_updates.h"
@@ -147,6 +148,54 @@ py::dict update(const Arguments& arguments, const py::object& progress) {
   });
 }
 
+py::dict surface(const Arguments& arguments, const py::object& progress) {
+  const SurfaceTask task = parse_surface_options(arguments).task;
+  std::vector<double> frames, areas, volumes, contact_areas;
+  std::vector<std::int64_t> contact_times, contacts, residue_of, chain_of;
+  std::vector<std::string> names, residue_names, chain_names;
+  py::dict result = run_analysis(progress, [&](const Progress& look, const Warn& warn) {
+    SurfaceReport report = measure_surface(task, true, look, warn);
+    for (std::size_t t = 0; t < report.frames.size(); ++t) {
+      SurfaceFrame& frame = report.frames[t];
+      frames.push_back(frame.frame);
+      areas.insert(areas.end(), frame.measures.areas.begin(), frame.measures.areas.end());
+      volumes.insert(volumes.end(), frame.measures.volumes.begin(), frame.measures.volumes.end());
+      contact_times.insert(contact_times.end(), frame.edges.size(), static_cast<std::int64_t>(t));
+      for (const auto& edge : frame.edges) contacts.insert(contacts.end(), edge.begin(), edge.end());
+      contact_areas.insert(contact_areas.end(), frame.measures.contacts.begin(),
+                           frame.measures.contacts.end());
+      frame.measures = {};
+      frame.edges = {};
+    }
+    for (BeadId bead = 0; bead < report.scene->bead_count(); ++bead)
+      names.push_back(report.scene->bead_name(bead));
+    residue_of.assign(names.size(), -1);
+    if (report.residues) {
+      residue_of.assign(report.residues->of_bead.begin(), report.residues->of_bead.end());
+      residue_names = report.residues->names;
+    }
+    chain_of.assign(report.chains.of_bead.begin(), report.chains.of_bead.end());
+    chain_names = report.chains.names;
+    Found found;
+    add_surface(report, found.json);
+    found.table = surface_text(report);
+    return found;
+  });
+  const auto times = static_cast<py::ssize_t>(frames.size()), beads = static_cast<py::ssize_t>(names.size()),
+             count = static_cast<py::ssize_t>(contact_times.size());
+  result["frames"] = array_of(std::move(frames));
+  result["areas"] = array_of(std::move(areas), {times, beads});
+  result["volumes"] = array_of(std::move(volumes), {times, beads});
+  result["contact_times"] = array_of(std::move(contact_times));
+  result["contacts"] = array_of(std::move(contacts), {count, 2});
+  result["contact_areas"] = array_of(std::move(contact_areas));
+  result["names"] = names;
+  result["residue_of"] = array_of(std::move(residue_of));
+  result["residue_names"] = residue_names;
+  result["chain_of"] = array_of(std::move(chain_of));
+  result["chain_names"] = chain_names;
+  return result;
+}
 py::dict collide(const Arguments& arguments, const py::object& progress) {
   const CollideOptions options = parse_collide_options(arguments);
   std::vector<std::int64_t> frame_of_pairs, beads;

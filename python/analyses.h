@@ -23,6 +23,11 @@ namespace kds::python {
 /// `kds collide`. Adds the colliding pairs of all frames, if some method lists them: `frames` (a frame number
 /// for each pair) and `pairs` (m, 2).
 [[nodiscard]] pybind11::dict collide(const Arguments& arguments, const pybind11::object& progress);
+/// `kds surface`. Adds arrays with a row for each time: `frames` (numbers in the file), `areas` and `volumes`
+/// (times, beads); the contacts of all times: `contact_times` (indices of times), `contacts` (m, 2) and
+/// `contact_areas`; `names` of the beads, `residue_of` (for each bead, -1 without residues), `residue_names`,
+/// `chain_of` and `chain_names`.
+[[nodiscard]] pybind11::dict surface(const Arguments& arguments, const pybind11::object& progress);
 /// `kds trade`.
 [[nodiscard]] pybind11::dict trade(const Arguments& arguments, const pybind11::object& progress);
 /// `kds info`: the conditions of a proper necklace.

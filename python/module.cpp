@@ -64,7 +64,7 @@ std::vector<std::tuple<std::string, std::string, bool>> options_of(const std::st
   static const std::map<std::string, Run, std::less<>> commands{
       {"run", kds::run_command},       {"contacts", kds::contacts_command}, {"compare", kds::compare_command},
       {"update", kds::update_command}, {"collide", kds::collide_command},   {"trade", kds::trade_command},
-      {"info", kds::info_command},     {"generate", kds::generate_command}};
+      {"info", kds::info_command},     {"generate", kds::generate_command},  {"surface", kds::surface_command}};
   std::vector<std::tuple<std::string, std::string, bool>> all;
   try {
     commands.at(command)({"--help"});
@@ -208,6 +208,7 @@ PYBIND11_MODULE(_kds, module) {
   module.def("version", kds::program_version);
   module.def("data_folder", [] { return kds::source_data_folder().string(); });
   module.def("contacts", kds::python::contacts);
+  module.def("surface", kds::python::surface);
   module.def("compare", kds::python::compare);
   module.def("update", kds::python::update);
   module.def("collide", kds::python::collide);

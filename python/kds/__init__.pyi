@@ -105,6 +105,13 @@ class _Collide(_Input, total=False):
     rounds: Optional[int]
     groups: Optional[Tuple[Any, Any]]
 
+class _Surface(_Input, total=False):
+    obstacle: Optional[Path]
+    probe: Optional[float]
+    at: Union[float, Sequence[float], None]
+    motion: Optional[str]
+    threads: Optional[int]
+
 class _Trade(_Input, total=False):
     want: Optional[Names]
     apart: Optional[int]
@@ -248,6 +255,18 @@ class Collisions(_Result):
     pair_frames: NDArray[np.int64]
     frames: Table
 
+class Surface(_Result):
+    frames: NDArray[np.float64]
+    areas: NDArray[np.float64]
+    volumes: NDArray[np.float64]
+    contacts: Pairs
+    contact_areas: NDArray[np.float64]
+    contact_times: NDArray[np.int64]
+    unit: str
+    def atoms_frame(self) -> Table: ...
+    def residues_frame(self) -> Table: ...
+    def contacts_frame(self) -> Table: ...
+
 class Trade(_Result):
     recommendation: str
 
@@ -268,6 +287,7 @@ def contacts(source: Source, *, cutoff: Cutoffs, verbose: bool = False, **option
 def compare(source: Source, *, verbose: bool = False, **options: Unpack[_Compare]) -> Comparison: ...
 def update(source: Source, *, verbose: bool = False, **options: Unpack[_Update]) -> Updates: ...
 def collide(source: Source, *, verbose: bool = False, **options: Unpack[_Collide]) -> Collisions: ...
+def surface(source: Source, *, verbose: bool = False, **options: Unpack[_Surface]) -> Surface: ...
 def trade(source: Source, *, times_examined: Optional[int] = None, verbose: bool = False,
           **options: Unpack[_Trade]) -> Trade: ...
 def conditions(source: Source, *, verbose: bool = False, **options: Unpack[_Conditions]) -> Conditions: ...

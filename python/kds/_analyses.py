@@ -170,6 +170,78 @@ def collide(source, *, verbose=False, **options):
     return Collisions(_analyse(collide, source, options, verbose, "frame"))
 
 
+class Surface(Result):
+    """Areas and volumes of the union of balls. Made by :func:`kds.surface`.
+
+    ``rows``
+        one row for each time: ``frame``, ``area``, ``volume`` and, with several chains, ``between_chains``, the contact area
+        of beads of different chains.
+    ``frames``
+        the number in the file of each time, with a fraction between frames.
+    ``areas``, ``volumes``
+        arrays (times, beads): the area of the bead's sphere outside all other balls, and the volume of its ball within its
+        cell of the power diagram.
+    ``contacts``, ``contact_areas``, ``contact_times``
+        the contacts of all times: an array (m, 2) of beads, the area in which their cells meet within the balls, and the
+        index of the time.
+    ``unit``
+        the unit of lengths. Empty if they have none.
+    """
+
+    def __init__(self, found):
+        super().__init__(found)
+        self.unit = self.json["unit"]
+        for name in ("frames", "areas", "volumes", "contacts", "contact_areas", "contact_times"):
+            setattr(self, name, found[name])
+        self._names = {of: np.array(found[of]) for of in ("names", "residue_names", "chain_names")}
+        self._residue_of, self._chain_of = found["residue_of"], found["chain_of"]
+
+    def _frame(self, names, areas, volumes, **columns):
+        times, elements = areas.shape
+        return table({"frame": np.repeat(self.frames, elements), **{key: np.tile(column, times)
+                      for key, column in columns.items()}, "name": np.tile(names, times), "area": areas.ravel(),
+                      "volume": volumes.ravel()})
+
+    def atoms_frame(self):
+        """Returns a table with a row for each bead at each time."""
+        return self._frame(self._names["names"], self.areas, self.volumes, bead=np.arange(self.areas.shape[1]),
+                           chain=self._names["chain_names"][self._chain_of])
+
+    def residues_frame(self):
+        """Returns a table with a row for each residue at each time. It has no rows if the input names no residues."""
+        names = self._names["residue_names"]
+        sums = [np.zeros((len(self.frames), len(names))) for _ in range(2)]
+        if len(names) > 0:
+            for total, values in zip(sums, (self.areas, self.volumes)):
+                np.add.at(total.T, self._residue_of, values.T)
+        return self._frame(names, *sums, residue=np.arange(len(names)))
+
+    def contacts_frame(self):
+        """Returns a table with a row for each contact of two beads at each time."""
+        i, j = self.contacts.T
+        return table({"frame": self.frames[self.contact_times], "i": i, "j": j, "area": self.contact_areas})
+
+
+@takes("surface")
+def surface(source, *, verbose=False, **options):
+    """Measures the accessible area and the volume of the union of balls, and the contact areas of its beads.
+
+    The input is that of :func:`kds.run`, with all atoms and their van der Waals radii by default. ``at`` lists times in
+    frames that are read: 2.5 is halfway from frame 2 to frame 3. Returns :class:`kds.Surface`.
+
+    >>> import kds
+    >>> import numpy as np
+    >>> two = np.array([[[0, 0, 0], [3, 0, 0]], [[0, 0, 0], [1, 0, 0]]])
+    >>> found = kds.surface(two, radius=1, at=[0, 0.5])
+    >>> found.areas.round(3)
+    array([[12.566, 12.566],
+           [12.566, 12.566]])
+    """
+    if options.get("radius") is None:
+        options["radius"] = "element"
+    return Surface(_analyse(surface, source, options, verbose, "frame"))
+
+
 class Trade(Result):
     """The cost and the errors of each setting. Made by :func:`kds.trade`. ``recommendation`` says in words which to take."""
 
