@@ -86,7 +86,7 @@ class Stubs(unittest.TestCase):
         self.assertEqual(set(kds.__all__) - set(self.functions) - set(self.classes), set())
         for name, node in self.functions.items():
             self.assert_same(node, getattr(kds, name), name)
-        for name in ("Run", "KineticRun", "Structure", "Contacts", "KineticAnalysis"):
+        for name in ("Run", "KineticRun", "Structure", "Contacts", "Surface", "KineticAnalysis"):
             for node in self.classes[name].body if hasattr(kds, name) else ():
                 if isinstance(node, ast.FunctionDef) and (node.name == "__init__" or not node.name.startswith("__")):
                     member = inspect.getattr_static(getattr(kds, name), node.name)
@@ -98,6 +98,7 @@ class Stubs(unittest.TestCase):
         missing = {"frames", "format", "out", "replace", "paper", "json", "quiet", "help", "view", "dump", "events", "log", "times"}
         for name, command, but in (("run", "run", {"rounds"}), ("contacts", "contacts", set()), ("compare", "compare", set()),
                                    ("update", "update", set()), ("collide", "collide", set()), ("trade", "trade", set()),
+                                   ("surface", "surface", set()),
                                    ("conditions", "info", {"beads"}), ("stream", "run", {"rounds"}), ("KineticRun", "run", {"rounds"})):
             help = "".join(subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=True).stdout
                            for words in ([command, "--help"], ["help", "inputs"]))
@@ -164,7 +165,7 @@ class Manual(unittest.TestCase):
             self.skipTest(f"the examples need matplotlib and pandas ({error})")
         matplotlib.use("svg")
         files = [ROOT / "data" / "trajectories" / f"villin_hp36_300K{end}" for end in (".dcd", ".pdb")]
-        names = self.run_blocks("dual_complex.md", 4, *((file, file.name) for file in files))
+        names = self.run_blocks("dual_complex.md", 5, *((file, file.name) for file in files))
         run, lines = names["run"], list(names["zigzag"](names["run"]))
         now = {}  # simplices, each with the number of those of one bead more that contain it
         for line in lines:

@@ -274,6 +274,7 @@ class Interrupts(unittest.TestCase):
             "trade": lambda: kds.trade(self.positions, radius=1),
             "update": lambda: kds.update(self.positions, radius=1),
             "collide": lambda: kds.collide(self.positions, radius=1, method="all"),
+            "surface": lambda: kds.surface(self.positions, radius=1),
             "conditions": lambda: kds.conditions(self.positions, radius=1),
             "generate": lambda: kds.generate("random-chain", beads=20000, frames=2000),
             "exact": lambda: kds.run(self.positions, radius=1, structures=["power"], kernel="exact", threads=1),
