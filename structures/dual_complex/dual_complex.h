@@ -79,8 +79,9 @@ class DualComplex final : public StructureBase, public BeadEdits, private CellFo
   /// Returns the simplices of the complex of this dimension, each with its beads ascending, in lexicographic
   /// order. Takes time m log m for m simplices.
   [[nodiscard]] std::vector<SimplexBeads> simplices(int dimension) const;
-  /// Returns the complex as lists of simplices with their faces, which union_measures.h measures. Takes
-  /// linear time. Not for replays, which know no faces.
+  /// Returns the complex as lists of simplices with their faces, which union_measures.h measures. Empty while
+  /// all beads lie in one plane. Takes linear time. Throws std::logic_error during a replay, which knows no
+  /// faces.
   [[nodiscard]] ComplexSimplices simplices_with_faces() const requires(Dimension == 3);
   /// Returns all simplices, by dimension, each list followed by no_bead (RunningStructure::state).
   [[nodiscard]] std::vector<BeadId> state() const;
