@@ -23,8 +23,12 @@
 #include "tests/support/property_runs.h"
 #include "tests/support/rounds.h"
 
-namespace kds::test {
+namespace kds::union_measures_test {
 namespace {
+
+using test::from_environment;
+using test::rounds;
+using test::UnionOfBalls;
 
 constexpr double pi = std::numbers::pi;
 
@@ -294,7 +298,8 @@ TEST(StaticDualComplex, EqualsAlphaShapesOfCgal) {
       }
     }
     std::sort(simplices.begin(), simplices.end());
-    EXPECT_EQ(simplices, cgal_alpha_complex(exact_points(motion, Dyadic(0.0)))) << "round " << round;
+    EXPECT_EQ(simplices, test::cgal_alpha_complex(test::exact_points(motion, Dyadic(0.0))))
+        << "round " << round;
   }
 }
 
@@ -447,4 +452,4 @@ TEST(ComplementMeasures, OfAVoidAreWhatABallAddsThatFillsIt) {
 }
 
 }  // namespace
-}  // namespace kds::test
+}  // namespace kds::union_measures_test
