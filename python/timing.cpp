@@ -16,10 +16,12 @@
 #include "python/balls_given.h"
 #include "python/watch.h"
 #include "structures/collision/hierarchy_search.h"
+#include "structures/dual_complex/union_measures.h"
 #include "structures/hierarchy/layered_hierarchy.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
 #include "structures/necklace/balls.h"
 #include "structures/triangulation/static_build.h"
+#include "structures/triangulation/static_dual_complex.h"
 
 namespace kds::python {
 
@@ -90,6 +92,18 @@ py::dict builds(const Numbers& points, std::size_t rounds) {
   found["rho_avg"] = rho.average;
   found["rho_min"] = rho.least;
   return found;
+}
+
+py::dict surfaces(const Numbers& points, const Numbers& lengths, std::size_t rounds) {
+  const BallsGiven balls(points, lengths);
+  std::vector<double> weights = balls.radii;
+  for (double& weight : weights) weight *= weight;
+  const ComplexSimplices complex = released([&] { return static_dual_complex(balls.centers, weights); });
+  return timed_in_turn(
+      rounds,
+      {work("triangulation", triangulation_by_cgal<3>(balls.centers, weights)),
+       work("complex", [&] { static_cast<void>(static_dual_complex(balls.centers, weights)); }),
+       work("measures", [&] { static_cast<void>(measure_union(balls.centers, balls.radii, complex)); })});
 }
 
 // The paper's quadratic method. The early return also keeps the compiler from testing several pairs at once.
@@ -352,6 +366,7 @@ void bind_timing(py::module_& module) {
   module.def("time_builds", [](const Numbers& centers, std::size_t rounds) {
     return in_dimension(centers, [&](auto dimension) { return builds<dimension>(centers, rounds); });
   });
+  module.def("time_surfaces", surfaces);
   module.def(
       "time_searches", [](const Numbers& centers, double radius, std::size_t apart, std::size_t rounds) {
         return in_dimension(

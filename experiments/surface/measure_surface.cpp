@@ -113,7 +113,7 @@ SurfaceReport measure_surface(const SurfaceTask& task, bool keep,
   if (has_residues(scene)) report.residues = elements_of(scene, ContactElement::residue);
 
   std::vector<double> times = task.times;
-  const std::size_t frames = lone_frame ? 1 : scene.frame_count();
+  const std::size_t frames = report.frame_count = lone_frame ? 1 : scene.frame_count();
   if (times.empty()) {
     times.resize(frames);
     std::iota(times.begin(), times.end(), 0.0);

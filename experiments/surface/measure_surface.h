@@ -50,6 +50,7 @@ struct SurfaceFrame {
 
 struct SurfaceReport {
   std::unique_ptr<const Scene> scene;
+  std::size_t frame_count = 0;              ///< of the input
   std::string unit;                         ///< of lengths; empty if they have none
   ContactElements chains;                   ///< the necklaces
   std::optional<ContactElements> residues;  ///< none if a bead has no residue

@@ -245,6 +245,7 @@ int surface_command(const Arguments& arguments) {
       measure_surface(task, options.destinations.out.has_value(), command.progress(), command.warn());
   Json json;
   InputSize size = size_of(*report.scene);
+  size.frames = report.frame_count;
   json["input"] = input_json(task, size, report.scene->radii());
   json["settings"] = surface_task_options().settings_json(task);
   add_surface(report, json);

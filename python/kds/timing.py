@@ -7,6 +7,7 @@ The scripts of experiments/paper measure with these functions.
 
 from . import _kds
 from ._options import number, plain, whole
+from ._static import _balls
 
 
 def builds(centers, *, rounds=5):
@@ -22,6 +23,20 @@ def builds(centers, *, rounds=5):
     (3, True)
     """
     return _kds.time_builds(plain("centers", centers), whole("rounds", rounds, 0))
+
+
+def surfaces(centers, radius, *, rounds=5):
+    """Times the measures of a union of balls: areas, volumes and contact areas.
+
+    ``complex`` builds the dual complex from nothing and ``measures`` measures it. ``triangulation`` is CGAL's triangulation
+    alone.
+
+    >>> import kds.timing
+    >>> found = kds.timing.surfaces([[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2]], 1.5, rounds=3)
+    >>> sorted(found), len(found["measures"])
+    (['complex', 'measures', 'triangulation'], 3)
+    """
+    return _kds.time_surfaces(*_balls(centers, radius), whole("rounds", rounds, 0))
 
 
 def searches(centers, radius=0, *, apart=2, rounds=5):

@@ -656,5 +656,40 @@ class Memory(unittest.TestCase):
         np.testing.assert_array_equal(run.power.edges(frame=2), kds.power_diagram(coil()[2], 1)[0])
 
 
+class Surfaces(unittest.TestCase):
+    def test_two_balls_have_a_closed_form(self):
+        positions = np.array([[[0, 0, 0], [6, 0, 0]], [[0, 0, 0], [2, 0, 0]]], dtype=float)
+        found = kds.surface(positions, radius=2, at=[0, 0.75, 1])  # the distances are 6, 3 and 2
+        height = np.array([0, 0.5, 1])  # of the cap that each ball loses
+        np.testing.assert_allclose(found.areas, np.outer(16 * np.pi - 4 * np.pi * height, [1, 1]), rtol=1e-12)
+        np.testing.assert_allclose(found.volumes, np.outer(32 / 3 * np.pi - np.pi / 3 * height**2 * (6 - height), [1, 1]))
+        np.testing.assert_allclose(found.frames, [0, 0.75, 1])
+        self.assertEqual(found.contacts.tolist(), [[0, 1], [0, 1]])
+        np.testing.assert_allclose(found.contact_areas, np.pi * (4 - (2 - height[1:])**2))
+        self.assertEqual(found.contact_times.tolist(), [1, 2])
+
+    def test_residues_and_chains_are_sums_of_atoms(self):
+        found = kds.surface(os.path.join(DATA, "paper", "1a4y_AB.pdb"), chain="A,B")
+        atoms, residues, contacts = found.atoms_frame(), found.residues_frame(), found.contacts_frame()
+        chains = np.asarray(atoms["chain"])
+        for name in ("area", "volume"):
+            self.assertAlmostEqual(np.sum(atoms[name]), found.rows[name][0], places=6)
+            self.assertAlmostEqual(np.sum(residues[name]), found.rows[name][0], places=6)
+        first = np.asarray(residues["name"]) == np.asarray(residues["name"])[0]
+        of_first = [str(name).endswith("of SER 1 in chain A") for name in atoms["name"]]
+        self.assertAlmostEqual(np.asarray(residues["area"])[first].sum(), np.asarray(atoms["area"])[of_first].sum(), places=9)
+        between = chains[np.asarray(contacts["i"])] != chains[np.asarray(contacts["j"])]
+        self.assertAlmostEqual(np.asarray(contacts["area"])[between].sum(), found.rows["between_chains"][0], places=6)
+        self.assertGreater(found.rows["between_chains"][0], 1000)
+
+    def test_it_equals_the_program(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            found = kds.surface(DCD, topology=PDB, stop=4, threads=2)
+        rows = program("surface", DCD, "--topology", PDB, "--frames", "0:4", "--threads", "1")["rows"]
+        self.assertEqual(found.json["rows"], rows)
+        self.assertEqual(found.unit, "angstrom")
+
+
 if __name__ == "__main__":
     unittest.main()
