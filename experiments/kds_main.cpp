@@ -42,6 +42,7 @@ constexpr std::array kCommands{
     Command{"contacts", "measure how long contacts last, exactly and as frames show it", contacts_command},
     Command{"missed", "measure which contacts are missed if only frames are examined", missed_command},
     Command{"surface", "measure areas and volumes of the union of balls", surface_command},
+    Command{"voids", "follow the voids of the union of balls: when each opens and closes", voids_command},
     Command{"trade", "measure how much time each accuracy option saves and how large its errors are",
             trade_command},
     Command{"ccd", "decide when a point meets a triangle, or two edges each other", ccd_command},

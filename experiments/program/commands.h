@@ -43,6 +43,8 @@ int run_command(const Arguments& arguments);
 int stability_command(const Arguments& arguments);
 /// `kds surface`: measures areas and volumes of the union of balls.
 int surface_command(const Arguments& arguments);
+/// `kds voids`: follows the voids of the union of balls.
+int voids_command(const Arguments& arguments);
 /// `kds sweep`: runs commands over many inputs and settings. Returns 75 if a signal or --time-budget ended
 /// it.
 int sweep_command(const Arguments& arguments);

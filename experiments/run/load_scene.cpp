@@ -294,11 +294,11 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
     const StructureSpec* const spec = structure_registry().find(name);
     if (spec == nullptr) continue;
     if (spec->lacks_images && scene.is_periodic()) warn_of_images(name, warn);
-    if (name == "dual" && input.radius == "auto" && scene.probe() == 0)
+    if ((name == "dual" || name == "voids") && input.radius == "auto" && scene.probe() == 0)
       warn(
-          fmt::format("dual: with {} auto the balls of a chain just touch, so their complex hardly changes; "
+          fmt::format("{}: with {} auto the balls of a chain just touch, so their complex hardly changes; "
                       "expected {} element, or a number",
-                      "--radius"_arg, "--radius"_arg));
+                      name, "--radius"_arg, "--radius"_arg));
     if (!spec->across_walls.empty()) warn_of_cells(spec->across_walls, scene.lacks_images(), input, warn);
   }
   return scene;

@@ -127,7 +127,7 @@ Option<RunOptions> probe_option_of_run() {
   option.text = [](const RunOptions& o) {
     return o.probe || o.probe_length() > 0 ? fmt::format("{}", o.probe_length()) : "";
   };
-  return only_for({"power", "dual"}, option);
+  return only_for({"power", "dual", "voids"}, option);
 }
 
 /// Returns the option --rounds. The default value of the option does not appear as a setting.

@@ -57,10 +57,14 @@ struct RunOptions : InputOptions, Destinations {
   std::optional<std::size_t> threads;           ///< --threads; empty for all cores
   std::optional<std::uint64_t> work;            ///< limit on the limb operations of exact arithmetic
 
+  /// Returns whether the run has a dual complex.
+  [[nodiscard]] bool has_dual() const {
+    return std::ranges::count(structures, "dual") + std::ranges::count(structures, "voids") > 0;
+  }
   /// Returns --probe or its default: 1.4, the radius of water in angstrom, for the dual complex of van der
   /// Waals balls; otherwise 0.
   [[nodiscard]] double probe_length() const {
-    const bool is_default = std::ranges::count(structures, "dual") > 0 && radius == "element";
+    const bool is_default = has_dual() && radius == "element";
     return probe.value_or(is_default ? 1.4 : 0);
   }
 };

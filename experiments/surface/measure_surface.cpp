@@ -8,7 +8,6 @@
 #include <future>
 #include <numeric>
 
-#include "experiments/run/load_scene.h"
 #include "motions/base/input_error.h"
 #include "motions/base/interruption.h"
 #include "motions/curves/positions.h"
@@ -97,17 +96,10 @@ double SurfaceFrame::buried() const {
 SurfaceReport measure_surface(const SurfaceTask& task, bool keep,
                               const std::function<void(std::size_t, std::size_t)>& progress,
                               const std::function<void(const std::string&)>& warn) {
-  refuse_instance(task, "points and one step");
   bool lone_frame = false;
   SurfaceReport report;
-  Scene loaded = load_necklaces(task, task.motion, 1, warn, {}, &lone_frame);
-  loaded.set_probe(task.probe_length());
-  report.scene = std::make_unique<const Scene>(std::move(loaded));
+  report.scene = std::make_unique<const Scene>(load_union(task, "kds surface", warn, &lone_frame));
   const Scene& scene = *report.scene;
-  if (scene.dimension() != 3)
-    throw InputError(
-        fmt::format("{}: all beads stay in one plane; kds surface expects balls in space", file_names(task)));
-  if (scene.is_periodic()) warn_of_images("kds surface", warn);
   report.unit = length_unit(task);
   report.chains = elements_of(scene, ContactElement::chain);
   if (has_residues(scene)) report.residues = elements_of(scene, ContactElement::residue);

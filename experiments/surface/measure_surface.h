@@ -11,27 +11,16 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/program/input_options.h"
+#include "experiments/surface/union_task.h"
 #include "motions/scene/scene.h"
 #include "structures/contacts/contact_elements.h"
 #include "structures/dual_complex/union_measures.h"
 
 namespace kds {
 
-struct SurfaceTask : InputOptions {
-  std::optional<double> probe;  ///< --probe; empty if not given
-  std::vector<double> times;    ///< --at, ascending: in frames that are read, from 0; empty for all frames
-  FrameMotion motion = FrameMotion::linear;
+struct SurfaceTask : UnionTask {
+  std::vector<double> times;  ///< --at, ascending: in frames that are read, from 0; empty for all frames
   std::optional<std::size_t> threads;  ///< empty for all cores
-
-  /// All atoms with their van der Waals radii.
-  SurfaceTask() {
-    radius = "element";
-    reading.selection = Selection::all;
-  }
-  /// Returns --probe or its default: 1.4, the radius of water in angstrom, for van der Waals radii; otherwise
-  /// 0.
-  [[nodiscard]] double probe_length() const { return probe.value_or(radius == "element" ? 1.4 : 0); }
 };
 
 /// The measures at one time. Areas and volumes are in powers of the input's unit of length.

@@ -38,15 +38,8 @@ const OptionList<SurfaceTask>& surface_task_options() {
   using O = SurfaceTask;
   static const auto list =
       OptionList<O>()
-          .with(input_options().with({obstacle_option()}))
-          .with({real_option(
-                     {"--probe", "LENGTH",
-                      fmt::format(
-                          "radius of a probe, which is added to the radii of the beads (default: 1.4 with {} "
-                          "element, otherwise 0)",
-                          "--radius"_arg)},
-                     &O::probe, {0, 1e100}),
-                 list_option({"--at", "LIST",
+          .with(union_options())
+          .with({list_option({"--at", "LIST",
                               "times to measure, counted in frames that are read, from 0: 2.5 is halfway "
                               "from frame 2 to "
                               "frame 3 (default: all frames)"},
@@ -54,9 +47,6 @@ const OptionList<SurfaceTask>& surface_task_options() {
                              [](const std::string& text) {
                                return parse_reals("--at", text, {0, 1e15});
                              }),
-                 choice_option({"--motion", "NAME",
-                                "motion of beads between frames: linear or hermite (default: linear)"},
-                               &O::motion, std::span(frame_motion_names).first(2)),
                  of_output(whole_option(
                      {"--threads", "N", "measure frames on up to N threads (default: all cores)"},
                      &O::threads, 1, 1024))});

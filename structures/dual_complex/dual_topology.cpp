@@ -107,7 +107,7 @@ class DualTopology<Dimension>::VoidGraph {
 template <int Dimension>
 DualTopology<Dimension>::DualTopology(Simulator& simulator, std::size_t bead_count,
                                       DualComplex<Dimension>& complex)
-    : StructureBase(simulator, bead_count, "topology",
+    : StructureBase(simulator, bead_count, "voids",
                     std::span(topology_kinds).first(Dimension == 3 ? tunnel_end + 1 : tunnel_begin)),
       complex_(complex) {
   complex.set_follower(this);
@@ -142,6 +142,28 @@ auto DualTopology<Dimension>::voids() const -> std::map<Number, std::vector<Simp
   if (replayed_) return voids;
   for (const auto& [cell, beads] : void_cells_) voids[voids_.of(cell)].push_back(beads);
   for (auto& [number, cells] : voids) std::sort(cells.begin(), cells.end());
+  return voids;
+}
+
+template <int Dimension>
+std::map<Components::Number, std::vector<ComplementCell>> DualTopology<Dimension>::complement_cells() const
+    requires(Dimension == 3) {
+  std::map<Number, std::vector<ComplementCell>> voids;
+  if (replayed_) return voids;
+  for (const auto& [cell, beads] : void_cells_) {
+    ComplementCell found{complex_.triangulation().cells()[cell].vertex};
+    for (int i = 0; i < 4; ++i) {
+      const unsigned bit = 1U << static_cast<unsigned>(i);
+      if (complex_.has({0, found.beads[static_cast<std::size_t>(i)]}))
+        found.vertices = static_cast<std::uint8_t>(found.vertices | bit);
+      if (const auto facet = complex_.faces().facet(cell, i); complex_.has(*facet))
+        found.triangles = static_cast<std::uint8_t>(found.triangles | bit);
+    }
+    for (std::size_t e = 0; e < tetrahedron_edges.size(); ++e)
+      if (complex_.has(complex_.faces().edge(cell, e)))
+        found.edges = static_cast<std::uint8_t>(found.edges | 1U << e);
+    voids[voids_.of(cell)].push_back(found);
+  }
   return voids;
 }
 

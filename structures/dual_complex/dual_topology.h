@@ -28,6 +28,7 @@
 #include "structures/dual_complex/complex_follower.h"
 #include "structures/dual_complex/dual_complex.h"
 #include "structures/dual_complex/followed_components.h"
+#include "structures/dual_complex/union_measures.h"
 
 namespace kds {
 
@@ -63,6 +64,10 @@ class DualTopology final : public StructureBase, public BeadEdits, private Compl
   /// Returns the cells of each void, each with its beads ascending, in ascending order. Empty during a
   /// replay, which does not know the numbers.
   [[nodiscard]] std::map<Number, std::vector<SimplexBeads>> voids() const;
+  /// Returns the cells of each void with the faces that belong to the complex, for measure_complement. Empty
+  /// during a replay.
+  [[nodiscard]] std::map<Number, std::vector<ComplementCell>> complement_cells() const
+      requires(Dimension == 3);
   /// Returns the beads of each component, ascending. Empty during a replay.
   [[nodiscard]] std::map<Number, std::vector<BeadId>> components() const;
   /// Returns the cells of all voids, ascending.

@@ -65,6 +65,10 @@ class TriangulationFaces {
     if (number == no_face) return std::nullopt;
     return SimplexName{Dimension - 1, number};
   }
+  /// Returns the name of an edge of a finite cell in space; `e` counts as in tetrahedron_edges.
+  [[nodiscard]] SimplexName edge(CellId cell, std::size_t e) const requires(Dimension == 3) {
+    return {1, of_cell_[cell][e]};
+  }
   /// Returns the two cells of a facet. One of them may be infinite.
   [[nodiscard]] std::array<CellId, 2> cells_of(SimplexName facet) const {
     const Simplex& simplex = at(facet);

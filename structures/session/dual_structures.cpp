@@ -106,7 +106,7 @@ class TopologyInRun final : public RunningStructure {
     std::string text = fmt::format("what,beads\nb0,{}\nb1,{}\nb2,{}\n", components, tunnels, voids);
     for (const SimplexBeads& cell : topology_.void_cells())
       text += fmt::format("void_cell,{}\n", fmt::join(std::span(cell).first(Dimension + 1), " "));
-    return {{"topology.csv", std::move(text)}};
+    return {{"voids.csv", std::move(text)}};
   }
   [[nodiscard]] ReplayScheme replay_scheme() const override {
     return {{{"voids", Dimension + 1, Dimension + 1}}, {}};
@@ -164,7 +164,7 @@ void add_dual_structures(StructureRegistry& registry) {
              return std::make_unique<DualInRun<D>>(simulator, scene, motion, diagram);
            })});
   registry.add(
-      {.name = "topology",
+      {.name = "voids",
        .about = "topology of the dual complex: connected components, tunnels and voids of the union of balls",
        .stands_on = "dual",
        .order = 32,

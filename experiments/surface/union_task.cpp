@@ -1,0 +1,45 @@
+#include "experiments/surface/union_task.h"
+
+#include <fmt/format.h>
+
+#include <span>
+#include <utility>
+
+#include "experiments/program/option.h"
+#include "experiments/run/load_scene.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+const OptionList<UnionTask>& union_options() {
+  using O = UnionTask;
+  static const auto list =
+      OptionList<O>()
+          .with(input_options().with({obstacle_option()}))
+          .with({real_option(
+                     {"--probe", "LENGTH",
+                      fmt::format(
+                          "radius of a probe, which is added to the radii of the beads (default: 1.4 with {} "
+                          "element, otherwise 0)",
+                          "--radius"_arg)},
+                     &O::probe, {0, 1e100}),
+                 // Lifted motion is excluded because it has no radii between frames.
+                 choice_option({"--motion", "NAME",
+                                "motion of beads between frames: linear or hermite (default: linear)"},
+                               &O::motion, std::span(frame_motion_names).first(2))});
+  return list;
+}
+
+Scene load_union(const UnionTask& task, std::string_view command,
+                 const std::function<void(const std::string&)>& warn, bool* lone_frame) {
+  refuse_instance(task, "points and one step");
+  Scene scene = load_necklaces(task, task.motion, 1, warn, {}, lone_frame);
+  scene.set_probe(task.probe_length());
+  if (scene.dimension() != 3)
+    throw InputError(
+        fmt::format("{}: all beads stay in one plane; {} expects balls in space", file_names(task), command));
+  if (scene.is_periodic()) warn_of_images(std::string(command), warn);
+  return scene;
+}
+
+}  // namespace kds

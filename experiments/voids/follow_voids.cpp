@@ -1,0 +1,230 @@
+#include "experiments/voids/follow_voids.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "experiments/run/run_scene.h"
+#include "kds/event_log.h"
+#include "motions/base/input_error.h"
+#include "motions/base/interruption.h"
+#include "structures/dual_complex/dual_topology.h"
+#include "structures/dual_complex/union_measures.h"
+#include "structures/session/kinetic_run.h"
+
+namespace kds {
+
+namespace {
+
+using Topology = DualTopology<3>;
+using Number = Topology::Number;
+
+/// Keeps the events of the topology until they are handled.
+class TopologyEvents final : public EventListener {
+ public:
+  void on_event(const Event& event) override {
+    if (event.structure == "voids") events.push_back(event);
+  }
+  [[nodiscard]] bool prints_time_of(const Event& event) const override {
+    return event.structure == "voids" && is_of_void(event.change.kind);
+  }
+  [[nodiscard]] static bool is_of_void(std::uint8_t kind) {
+    return kind >= Topology::void_begin && kind <= Topology::void_close;
+  }
+
+  std::vector<Event> events;
+};
+
+/// Follows cavities from the events of the topology.
+class CavityFollower {
+ public:
+  explicit CavityFollower(const Topology& topology) : topology_(topology) {}
+
+  void begin(const VoidMoment& start) {
+    for (const auto& [number, cells] : topology_.voids()) {
+      cavity_of_[number] = add({start, "start", {}});
+      note_beads(number, cells);
+    }
+  }
+  /// Follows the events at one time, after all of them were made.
+  void follow(const std::vector<Event>& events) {
+    const auto voids = topology_.voids();
+    for (const Event& event : events) {
+      if (!TopologyEvents::is_of_void(event.change.kind)) continue;
+      const auto ids = event.ids();
+      const VoidMoment at{event.frame(), event.picoseconds()};
+      switch (event.change.kind) {
+        case Topology::void_begin:
+          cavity_of_[ids[0]] = add({at, "begun", beads_from(ids, 1)});
+          break;
+        case Topology::void_end:
+          end(ids[0], {at, "filled", beads_from(ids, 1)});
+          break;
+        case Topology::void_merge:
+          end(ids[1], {at, "merged", beads_from(ids, 2)});
+          break;
+        case Topology::void_split:
+          cavity_of_[ids[1]] = add({at, "split", beads_from(ids, 2)});
+          break;
+        case Topology::void_open:
+          open_.emplace(cavity_of_.at(ids[0]), beads_now_[ids[0]]);
+          end(ids[0], {at, "opened", beads_from(ids, 1)});
+          break;
+        default:
+          close(ids[0], {at, "closed", beads_from(ids, 1)}, voids);
+      }
+    }
+    for (const auto& [number, cells] : voids) note_beads(number, cells);
+  }
+  void finish(const VoidMoment& last) {
+    while (!cavity_of_.empty()) end(cavity_of_.begin()->first, {last, "last frame", {}});
+  }
+  /// Measures the voids at a frame.
+  void measure(std::size_t frame, const Eigen::Matrix3Xd& centers, const std::vector<double>& radii,
+               TopologyAtFrame& at) {
+    for (auto& [number, cells] : topology_.complement_cells()) {
+      const ComplementMeasures measured = measure_complement(centers, radii, cells);
+      double area = 0;
+      for (const auto& [bead, of_bead] : measured.areas) area += of_bead;
+      Cavity& cavity = cavities_[cavity_of_.at(number)];
+      // Two voids may be stretches of one cavity, but not at one time.
+      cavity.samples.push_back({frame, measured.volume, area});
+      cavity.stretches.back().is_seen = true;
+      at.volume += measured.volume;
+    }
+  }
+  [[nodiscard]] std::vector<Cavity> take() { return std::move(cavities_); }
+
+ private:
+  static std::vector<BeadId> beads_from(std::span<const BeadId> ids, std::size_t first) {
+    return {ids.begin() + static_cast<std::ptrdiff_t>(first), ids.end()};
+  }
+  static std::set<BeadId> beads_of(const std::vector<SimplexBeads>& cells) {
+    std::set<BeadId> beads;
+    for (const SimplexBeads& cell : cells) beads.insert(cell.begin(), cell.end());
+    return beads;
+  }
+  std::size_t add(VoidEnd begin) {
+    cavities_.push_back({{{std::move(begin), {}}}, {}, {}});
+    return cavities_.size() - 1;
+  }
+  void note_beads(Number number, const std::vector<SimplexBeads>& cells) {
+    const std::set<BeadId>& beads = beads_now_[number] = beads_of(cells);
+    cavities_[cavity_of_.at(number)].beads.insert(beads.begin(), beads.end());
+  }
+  void end(Number number, VoidEnd how) {
+    const auto found = cavity_of_.find(number);
+    cavities_[found->second].stretches.back().end = std::move(how);
+    cavity_of_.erase(found);
+    beads_now_.erase(number);
+  }
+  void close(Number number, VoidEnd how, const std::map<Number, std::vector<SimplexBeads>>& voids) {
+    const auto cells = voids.find(number);
+    const std::set<BeadId> beads = cells == voids.end() ? std::set<BeadId>() : beads_of(cells->second);
+    auto best = open_.end();
+    double most = 0.5;  // the least share that counts
+    for (auto entry = open_.begin(); entry != open_.end(); ++entry) {
+      const auto common = static_cast<double>(std::count_if(
+          beads.begin(), beads.end(), [&](BeadId bead) { return entry->second.contains(bead); }));
+      const double all = static_cast<double>(beads.size() + entry->second.size()) - common;
+      if (common < most * all || common == 0) continue;
+      most = common / all;
+      best = entry;
+    }
+    if (best == open_.end()) {
+      cavity_of_[number] = add(std::move(how));
+      return;
+    }
+    cavity_of_[number] = best->first;
+    cavities_[best->first].stretches.push_back({std::move(how), {}});
+    open_.erase(best);
+  }
+
+  const Topology& topology_;
+  std::vector<Cavity> cavities_;
+  std::map<Number, std::size_t> cavity_of_;       // of each void
+  std::map<Number, std::set<BeadId>> beads_now_;  // around each void
+  std::map<std::size_t, std::set<BeadId>> open_;  // cavities that are open, with their beads when they opened
+};
+
+/// Bridges openings shorter than `persistence`, and leaves out cavities without a stretch of this length.
+void keep_persistent(std::vector<Cavity>& cavities, double persistence, VoidsReport& report) {
+  for (Cavity& cavity : cavities) {
+    report.all.insert(report.all.end(), cavity.stretches.begin(), cavity.stretches.end());
+    std::vector<ClosedStretch> bridged;
+    double longest = 0;
+    for (ClosedStretch& stretch : cavity.stretches) {
+      if (!bridged.empty() && stretch.begin.at.clock() - bridged.back().end.at.clock() < persistence) {
+        bridged.back().end = std::move(stretch.end);
+        bridged.back().is_seen |= stretch.is_seen;
+      } else {
+        bridged.push_back(std::move(stretch));
+      }
+      longest = std::max(longest, bridged.back().length());
+    }
+    cavity.stretches = std::move(bridged);
+    if (longest < persistence) {
+      ++report.short_ones;
+    } else {
+      report.cavities.push_back(std::move(cavity));
+    }
+  }
+}
+
+}  // namespace
+
+VoidsReport follow_voids(const VoidsTask& task, const std::function<void(std::size_t, std::size_t)>& progress,
+                         const std::function<void(const std::string&)>& warn) {
+  VoidsReport report;
+  report.scene = std::make_unique<const Scene>(load_union(task, "kds voids", warn));
+  const Scene& scene = *report.scene;
+  report.unit = length_unit(task);
+  std::vector<double> radii = scene.radii();
+  for (double& radius : radii) radius += scene.probe();
+
+  KineticRun run(scene, {{"voids"}});
+  watch_exact_work(run.simulator(), scene, warn);
+  TopologyEvents heard;
+  run.listen(heard);
+  run.build();
+  const auto& topology = run.structure<Topology>(run.structures().size() - 1);
+  CavityFollower follower(topology);
+  const auto moment = [&](std::size_t frame) {
+    const FrameStamp stamp = scene.stamp(frame);
+    return VoidMoment{static_cast<double>(stamp.number), stamp.picoseconds};
+  };
+  const auto at_frame = [&](std::size_t frame) {
+    TopologyAtFrame& at = report.frames.emplace_back(TopologyAtFrame{moment(frame), topology.betti(), 0});
+    follower.measure(frame, scene.centers(frame), radii, at);
+    progress(frame, scene.step_count());
+  };
+  const auto follow_events = [&] {
+    for (const Event& event : heard.events) {
+      report.tunnels_begun += event.change.kind == Topology::tunnel_begin ? 1 : 0;
+      report.tunnels_ended += event.change.kind == Topology::tunnel_end ? 1 : 0;
+    }
+    if (!heard.events.empty()) follower.follow(heard.events);
+    heard.events.clear();
+  };
+  report.has_times = moment(0).picoseconds.has_value() && moment(scene.step_count()).picoseconds.has_value();
+  follower.begin(moment(0));
+  at_frame(0);
+  for (std::size_t step = 0; step < scene.step_count(); ++step) {
+    InterruptionCheck::ask();
+    run.enter_step();
+    do {
+      follow_events();
+    } while (run.simulator().run_next());
+    run.run_step();
+    follow_events();
+    at_frame(step + 1);
+  }
+  follower.finish(moment(scene.step_count()));
+  std::vector<Cavity> cavities = follower.take();
+  keep_persistent(cavities, task.persistence, report);
+  return report;
+}
+
+}  // namespace kds

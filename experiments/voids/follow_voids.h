@@ -1,0 +1,90 @@
+#pragma once
+// Follows the voids of a union of balls through a trajectory for `kds voids`.
+//
+// A void is a part of space that the balls enclose; with a probe, a cavity in which the centre of the probe
+// cannot reach the outside. A void opens when a gate between three balls opens, and may close again later. It
+// is then the same cavity if at least half of the beads around both are common to them (the Jaccard index of
+// the beads when it opened and when it closed). So a cavity has stretches of time in which it is closed, and
+// openings between them.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "experiments/surface/union_task.h"
+#include "motions/frames/frame_stamp.h"
+#include "motions/scene/scene.h"
+
+namespace kds {
+
+struct VoidsTask : UnionTask {
+  /// --persistence, in picoseconds if the frames have times, otherwise in frames. Shorter openings are
+  /// bridged, and cavities without a longer stretch are not listed.
+  double persistence = 0;
+};
+
+struct VoidMoment {
+  double frame = 0;  ///< number in the file, with a fraction between frames
+  std::optional<double> picoseconds;
+
+  /// Returns the time in picoseconds if it is known, otherwise in frames.
+  [[nodiscard]] double clock() const { return picoseconds.value_or(frame); }
+};
+
+/// An end of a closed stretch: when and how it came about, and by which simplex.
+struct VoidEnd {
+  VoidMoment at;
+  std::string how;            ///< a word such as "closed"; see docs/formats.md
+  std::vector<BeadId> beads;  ///< of the simplex; empty at the first and the last frame
+};
+
+struct ClosedStretch {
+  VoidEnd begin, end;
+  bool is_seen = false;  ///< whether a frame lies in it
+
+  [[nodiscard]] double length() const { return end.at.clock() - begin.at.clock(); }
+};
+
+/// A cavity at a frame in which it is closed. Lengths are in the input's unit.
+struct VoidSample {
+  std::size_t frame = 0;  ///< counted in frames that are read
+  double volume = 0, area = 0;
+};
+
+struct Cavity {
+  std::vector<ClosedStretch> stretches;  ///< ascending; at least one
+  std::set<BeadId> beads;                ///< around it, at any time in which it is closed
+  std::vector<VoidSample> samples;
+};
+
+/// The topology at a frame.
+struct TopologyAtFrame {
+  VoidMoment at;
+  std::array<std::int64_t, 3> betti{};  ///< components, tunnels, voids
+  double volume = 0;                    ///< of all voids
+};
+
+struct VoidsReport {
+  std::unique_ptr<const Scene> scene;
+  std::string unit;                ///< of lengths; empty if they have none
+  bool has_times = false;          ///< whether moments have picoseconds
+  std::vector<Cavity> cavities;    ///< in the order in which they were first closed; short ones left out
+  std::size_t short_ones = 0;      ///< cavities that were left out
+  std::vector<ClosedStretch> all;  ///< of all cavities, before openings are bridged
+  std::vector<TopologyAtFrame> frames;
+  std::uint64_t tunnels_begun = 0, tunnels_ended = 0;
+};
+
+/// Reads the inputs and follows all voids on one thread. Each warning goes to `warn` as one line. Throws
+/// InputError.
+[[nodiscard]] VoidsReport follow_voids(const VoidsTask& task,
+                                       const std::function<void(std::size_t, std::size_t)>& progress,
+                                       const std::function<void(const std::string&)>& warn);
+
+}  // namespace kds

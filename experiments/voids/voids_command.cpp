@@ -1,0 +1,292 @@
+#include "experiments/voids/voids_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <ostream>
+#include <utility>
+#include <vector>
+
+#include "experiments/output/table.h"
+#include "experiments/output/text.h"
+#include "experiments/program/commands.h"
+#include "experiments/program/option.h"
+#include "experiments/program/option_values.h"
+#include "experiments/program/table_command.h"
+#include "experiments/run/page_of_run.h"
+#include "experiments/run/run_options.h"
+#include "motions/base/text_input.h"
+
+namespace kds {
+
+namespace {
+
+constexpr CommandSpec kVoidsCommand{
+    "kds voids",
+    "Follows the voids of the union of balls: cavities that no probe can leave. Gives the times at which "
+    "each one is closed, exactly for the paths between frames, the gate through which it opens, its atoms, "
+    "and its volume at frames. By default all atoms are balls with their van der Waals radii (--select all, "
+    "--radius element).",
+    {},
+    {},
+    "kds voids dhodh.dcd --topology dhodh.pdb --persistence 0.1 --out voids\n"
+    "kds voids villin.dcd --topology villin.pdb --probe 1.2 --json -"};
+
+const OptionList<VoidsTask>& voids_task_options() {
+  using O = VoidsTask;
+  static const auto list =
+      OptionList<O>()
+          .with(union_options())
+          .with({real_option(
+              {"--persistence", "TIME",
+               "bridge openings shorter than this, and leave out cavities that are never closed for so long; "
+               "in picoseconds if the frames have times, otherwise in frames (default: 0)"},
+              &O::persistence, {0, 1e12})});
+  return list;
+}
+
+/// A cavity with its number, as a row of tables.
+struct CavityRow {
+  std::size_t number;
+  const Cavity* cavity;
+  const VoidsReport* report;
+
+  [[nodiscard]] const ClosedStretch& first() const { return cavity->stretches.front(); }
+  [[nodiscard]] const ClosedStretch& last() const { return cavity->stretches.back(); }
+  [[nodiscard]] double closed() const {
+    double sum = 0;
+    for (const ClosedStretch& stretch : cavity->stretches) sum += stretch.length();
+    return sum;
+  }
+  [[nodiscard]] double longest() const {
+    double longest = 0;
+    for (const ClosedStretch& stretch : cavity->stretches) longest = std::max(longest, stretch.length());
+    return longest;
+  }
+  /// Returns the mean, least or largest volume over the frames in which the cavity is closed.
+  [[nodiscard]] std::optional<double> volume(int which) const {
+    if (cavity->samples.empty()) return std::nullopt;
+    double sum = 0, least = cavity->samples[0].volume, most = least;
+    for (const VoidSample& sample : cavity->samples) {
+      sum += sample.volume;
+      least = std::min(least, sample.volume);
+      most = std::max(most, sample.volume);
+    }
+    return which == 0 ? sum / static_cast<double>(cavity->samples.size()) : which < 0 ? least : most;
+  }
+};
+
+std::vector<CavityRow> rows_of(const VoidsReport& report) {
+  std::vector<CavityRow> rows;
+  for (const Cavity& cavity : report.cavities) rows.push_back({rows.size(), &cavity, &report});
+  return rows;
+}
+
+std::string names_of(const VoidsReport& report, const auto& beads) {
+  std::string names;
+  for (const BeadId bead : beads) names += (names.empty() ? "" : " ") + report.scene->bead_name(bead);
+  return names;
+}
+
+std::string in_unit(const VoidsReport& report, const std::string& quantity, int power) {
+  return report.unit.empty() ? quantity : fmt::format("{} ({}^{})", quantity, report.unit, power);
+}
+
+Table<CavityRow> cavity_columns(const VoidsReport& report) {
+  using R = CavityRow;
+  const std::string unit = report.has_times ? " (ps)" : " (frames)";
+  const auto column = [](std::string key, std::string heading, std::function<Field(const R&)> value,
+                         FieldFormat format = plainly) {
+    return Column<R>{std::move(key), std::move(heading), std::move(value), std::move(format)};
+  };
+  const auto volume = [&](const char* key, const char* heading, int which) {
+    return column(
+        key, in_unit(report, heading, 3), [which](const R& r) { return Field(r.volume(which)); },
+        with_decimals(2));
+  };
+  return Table<R>(
+      {column("cavity", "cavity", [](const R& r) { return Field(r.number); }),
+       column(
+           "first_closed_frame", "from frame", [](const R& r) { return Field(r.first().begin.at.frame); },
+           shortly),
+       column(
+           "last_closed_frame", "to frame", [](const R& r) { return Field(r.last().end.at.frame); }, shortly),
+       column("began", "began", [](const R& r) { return Field(r.first().begin.how); }),
+       column("ended", "ended", [](const R& r) { return Field(r.last().end.how); }),
+       column(
+           "closed", "closed" + unit, [](const R& r) { return Field(r.closed()); }, shortly),
+       column(
+           "longest", "longest" + unit, [](const R& r) { return Field(r.longest()); }, shortly),
+       column("openings", "openings", [](const R& r) { return Field(r.cavity->stretches.size() - 1); }),
+       column("frames", "frames", [](const R& r) { return Field(r.cavity->samples.size()); }),
+       volume("volume_mean", "volume", 0), volume("volume_least", "least", -1),
+       volume("volume_most", "most", 1),
+       column("atoms", "atoms", [](const R& r) { return Field(r.cavity->beads.size()); }),
+       column("beads", "",
+              [](const R& r) { return Field(fmt::format("{}", fmt::join(r.cavity->beads, " "))); })});
+}
+
+/// How long cavities stay closed without an opening, over all stretches.
+struct Lives {
+  std::size_t stretches = 0, unseen = 0, complete = 0;
+  std::optional<double> median, shortest, longest;  ///< of complete stretches
+};
+
+Lives lives_of(const VoidsReport& report) {
+  Lives lives;
+  std::vector<double> lengths;
+  for (const ClosedStretch& stretch : report.all) {
+    ++lives.stretches;
+    lives.unseen += stretch.is_seen ? 0 : 1;
+    if (stretch.begin.how != "start" && stretch.end.how != "last frame") lengths.push_back(stretch.length());
+  }
+  lives.complete = lengths.size();
+  if (lengths.empty()) return lives;
+  std::sort(lengths.begin(), lengths.end());
+  lives.shortest = lengths.front();
+  lives.longest = lengths.back();
+  lives.median = lengths[lengths.size() / 2];
+  return lives;
+}
+
+Table<TopologyAtFrame> frame_columns(const VoidsReport& report) {
+  using F = TopologyAtFrame;
+  Table<F> table(
+      {{.key = "frame", .heading = "frame", .value = [](const F& f) { return Field(f.at.frame); }}});
+  if (report.has_times)
+    table.add({{.key = "picoseconds", .heading = "time (ps)", .value = [](const F& f) {
+                  return Field(f.at.picoseconds);
+                }}});
+  const auto betti = [](const char* key, const char* heading, std::size_t which) {
+    return Column<F>{
+        .key = key, .heading = heading, .value = [which](const F& f) { return Field(f.betti[which]); }};
+  };
+  table.add({betti("b0", "components", 0),
+             betti("b1", "tunnels", 1),
+             betti("b2", "voids", 2),
+             {.key = "volume",
+              .heading = in_unit(report, "volume of voids", 3),
+              .value = [](const F& f) { return Field(f.volume); },
+              .format = shortly}});
+  return table;
+}
+
+// Files with a line for each stretch, and for each cavity at each frame.
+
+void write_stretches(const VoidsReport& report, std::ostream& stream) {
+  stream
+      << "cavity,begin_frame,begin_picoseconds,began,begin_beads,begin_names,end_frame,end_picoseconds,ended,"
+         "end_beads,end_names,in_a_frame\n";
+  const auto end = [&](const VoidEnd& e) {
+    return fmt::format("{:.12g},{},{},{},{}", e.at.frame,
+                       e.at.picoseconds ? fmt::format("{:.12g}", *e.at.picoseconds) : "", e.how,
+                       fmt::join(e.beads, " "), csv_field(names_of(report, e.beads)));
+  };
+  for (const CavityRow& row : rows_of(report))
+    for (const ClosedStretch& stretch : row.cavity->stretches)
+      stream << fmt::format("{},{},{},{}\n", row.number, end(stretch.begin), end(stretch.end),
+                            stretch.is_seen);
+}
+
+void write_volumes(const VoidsReport& report, std::ostream& stream) {
+  stream << "frame,cavity,volume,area\n";
+  for (const CavityRow& row : rows_of(report))
+    for (const VoidSample& sample : row.cavity->samples)
+      stream << fmt::format("{},{},{},{}\n", report.frames[sample.frame].at.frame, row.number, sample.volume,
+                            sample.area);
+}
+
+}  // namespace
+
+VoidsOptions parse_voids_options(const Arguments& arguments) {
+  using O = VoidsOptions;
+  static const auto list =
+      OptionList<O>()
+          .with(&O::task, voids_task_options())
+          .with(&O::destinations,
+                destination_options("write voids.json, voids.csv, stretches.csv, volumes.csv, frames.csv and "
+                                    "report.html to DIR (default: none)"))
+          .with({view_option(&O::view,
+                             "run once more, and write a page that shows the complex and its voids in a "
+                             "browser to FILE (default: none)")});
+  O options;
+  const ParsedArguments parsed = read_arguments(with_inputs(kVoidsCommand), list, arguments, options);
+  take_inputs(parsed, kVoidsCommand.name, options.task);
+  return options;
+}
+
+void add_voids(const VoidsReport& report, Json& json) {
+  const Lives lives = lives_of(report);
+  json["unit"] = report.unit;
+  json["probe"] = report.scene->probe();
+  json["clock"] = report.has_times ? "ps" : "frames";
+  json["rows"] = cavity_columns(report).json(rows_of(report));
+  json["short_cavities"] = report.short_ones;
+  json["stretches"] = {{"all", lives.stretches},
+                       {"in_no_frame", lives.unseen},
+                       {"complete", lives.complete},
+                       {"shortest", Field(lives.shortest).json()},
+                       {"median", Field(lives.median).json()},
+                       {"longest", Field(lives.longest).json()}};
+  json["tunnels"] = {{"begun", report.tunnels_begun}, {"ended", report.tunnels_ended}};
+  json["frames"] = frame_columns(report).json(report.frames);
+}
+
+std::string voids_text(const VoidsReport& report) {
+  constexpr std::size_t most_shown = 15;
+  std::vector<CavityRow> rows = rows_of(report);
+  const std::size_t shown = std::min(most_shown, rows.size());
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const CavityRow& a, const CavityRow& b) { return a.closed() > b.closed(); });
+  const char* const unit = report.has_times ? "ps" : "frames";
+  std::string text = fmt::format("Cavities, the {} closed longest of {}", shown, rows.size());
+  if (report.short_ones > 0) text += fmt::format(" ({} short ones left out)", report.short_ones);
+  text += ":\n" + cavity_columns(report).text(std::span(rows).first(shown));
+  const Lives lives = lives_of(report);
+  text += fmt::format("\n{} stretches of time in which a cavity is closed; {} of them contain no frame.\n",
+                      lives.stretches, lives.unseen);
+  if (lives.median)
+    text +=
+        fmt::format("{} of them begin and end within the run: median {:.4g} {}, from {:.4g} to {:.4g} {}.\n",
+                    lives.complete, *lives.median, unit, *lives.shortest, *lives.longest, unit);
+  text += fmt::format("{} tunnels began and {} ended.\n", report.tunnels_begun, report.tunnels_ended);
+  return text;
+}
+
+int voids_command(const Arguments& arguments) {
+  const VoidsOptions options = parse_voids_options(arguments);
+  const VoidsTask& task = options.task;
+  TableCommand command("voids", arguments, options.destinations, "step");
+  check_inputs_exist(task);
+  TakenPaths taken;
+  taken.read(task);
+  if (options.view) taken.write_page(*options.view, options.destinations);
+  command.check_destinations(std::move(taken));
+  const VoidsReport report = follow_voids(task, command.progress(), command.warn());
+  if (options.view) {
+    RunOptions run;
+    static_cast<InputOptions&>(run) = task;
+    run.structures = {"voids"};
+    run.motion = task.motion;
+    run.probe = task.probe_length();
+    write_page_of_run(run, *report.scene, *options.view, command.add_replay(*options.view),
+                      command.progress());
+  }
+  Json json;
+  json["input"] = input_json(task, size_of(*report.scene), report.scene->radii());
+  json["settings"] = voids_task_options().settings_json(task);
+  add_voids(report, json);
+  json["warnings"] = command.warnings();
+  TableCommand::Csvs csvs{{"voids.csv", cavity_columns(report).csv(rows_of(report))},
+                          {"frames.csv", frame_columns(report).csv(report.frames)}};
+  const auto add = [&](const char* name, void (*write)(const VoidsReport&, std::ostream&)) {
+    csvs.emplace_back(name, CsvContent([&report, write](std::ostream& stream) { write(report, stream); }));
+  };
+  add("stretches.csv", write_stretches);
+  add("volumes.csv", write_volumes);
+  command.deliver(json, csvs, voids_text(report));
+  return 0;
+}
+
+}  // namespace kds
