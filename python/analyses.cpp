@@ -31,6 +31,8 @@
 #include "experiments/trade/trade_report.h"
 #include "experiments/update/compare_updates.h"
 #include "experiments/update/update_command.h"
+#include "experiments/voids/follow_voids.h"
+#include "experiments/voids/voids_command.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
@@ -196,6 +198,18 @@ py::dict surface(const Arguments& arguments, const py::object& progress) {
   result["chain_names"] = chain_names;
   return result;
 }
+
+py::dict voids(const Arguments& arguments, const py::object& progress) {
+  const VoidsTask task = parse_voids_options(arguments).task;
+  return run_analysis(progress, [&](const Progress& look, const Warn& warn) {
+    const VoidsReport report = follow_voids(task, look, warn);
+    Found found;
+    add_voids(report, found.json);
+    found.table = voids_text(report);
+    return found;
+  });
+}
+
 py::dict collide(const Arguments& arguments, const py::object& progress) {
   const CollideOptions options = parse_collide_options(arguments);
   std::vector<std::int64_t> frame_of_pairs, beads;

@@ -64,7 +64,8 @@ std::vector<std::tuple<std::string, std::string, bool>> options_of(const std::st
   static const std::map<std::string, Run, std::less<>> commands{
       {"run", kds::run_command},       {"contacts", kds::contacts_command}, {"compare", kds::compare_command},
       {"update", kds::update_command}, {"collide", kds::collide_command},   {"trade", kds::trade_command},
-      {"info", kds::info_command},     {"generate", kds::generate_command},  {"surface", kds::surface_command}};
+      {"info", kds::info_command},     {"generate", kds::generate_command}, {"surface", kds::surface_command},
+      {"voids", kds::voids_command}};
   std::vector<std::tuple<std::string, std::string, bool>> all;
   try {
     commands.at(command)({"--help"});
@@ -209,6 +210,7 @@ PYBIND11_MODULE(_kds, module) {
   module.def("data_folder", [] { return kds::source_data_folder().string(); });
   module.def("contacts", kds::python::contacts);
   module.def("surface", kds::python::surface);
+  module.def("voids", kds::python::voids);
   module.def("compare", kds::python::compare);
   module.def("update", kds::python::update);
   module.def("collide", kds::python::collide);

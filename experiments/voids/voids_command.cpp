@@ -172,29 +172,59 @@ Table<TopologyAtFrame> frame_columns(const VoidsReport& report) {
   return table;
 }
 
-// Files with a line for each stretch, and for each cavity at each frame.
+/// A closed stretch of a cavity, or a cavity at a frame in which it is closed.
+struct StretchRow {
+  std::size_t cavity;
+  const ClosedStretch* stretch;
+};
+struct SampleRow {
+  std::size_t cavity;
+  double frame;
+  const VoidSample* sample;
+};
 
-void write_stretches(const VoidsReport& report, std::ostream& stream) {
-  stream
-      << "cavity,begin_frame,begin_picoseconds,began,begin_beads,begin_names,end_frame,end_picoseconds,ended,"
-         "end_beads,end_names,in_a_frame\n";
-  const auto end = [&](const VoidEnd& e) {
-    return fmt::format("{:.12g},{},{},{},{}", e.at.frame,
-                       e.at.picoseconds ? fmt::format("{:.12g}", *e.at.picoseconds) : "", e.how,
-                       fmt::join(e.beads, " "), csv_field(names_of(report, e.beads)));
+Table<StretchRow> stretch_columns(const VoidsReport& report) {
+  using R = StretchRow;
+  Table<R> table({{.key = "cavity", .value = [](const R& r) { return Field(r.cavity); }}});
+  const auto add_end = [&](const std::string& key, const std::string& how, VoidEnd ClosedStretch::*end) {
+    const auto column = [&](const std::string& name, auto value) {
+      return Column<R>{.key = name, .value = [=](const R& r) { return Field(value(r.stretch->*end)); }};
+    };
+    table.add(
+        {column(key + "_frame", [](const VoidEnd& e) { return e.at.frame; }),
+         column(key + "_picoseconds", [](const VoidEnd& e) { return e.at.picoseconds; }),
+         column(how, [](const VoidEnd& e) { return e.how; }),
+         column(key + "_beads", [](const VoidEnd& e) { return fmt::format("{}", fmt::join(e.beads, " ")); }),
+         column(key + "_names", [&report](const VoidEnd& e) { return names_of(report, e.beads); })});
   };
-  for (const CavityRow& row : rows_of(report))
-    for (const ClosedStretch& stretch : row.cavity->stretches)
-      stream << fmt::format("{},{},{},{}\n", row.number, end(stretch.begin), end(stretch.end),
-                            stretch.is_seen);
+  add_end("begin", "began", &ClosedStretch::begin);
+  add_end("end", "ended", &ClosedStretch::end);
+  table.add({{.key = "in_a_frame", .value = [](const R& r) { return Field(r.stretch->is_seen); }}});
+  return table;
 }
 
-void write_volumes(const VoidsReport& report, std::ostream& stream) {
-  stream << "frame,cavity,volume,area\n";
-  for (const CavityRow& row : rows_of(report))
-    for (const VoidSample& sample : row.cavity->samples)
-      stream << fmt::format("{},{},{},{}\n", report.frames[sample.frame].at.frame, row.number, sample.volume,
-                            sample.area);
+std::vector<StretchRow> stretch_rows(const VoidsReport& report) {
+  std::vector<StretchRow> rows;
+  for (std::size_t cavity = 0; cavity < report.cavities.size(); ++cavity)
+    for (const ClosedStretch& stretch : report.cavities[cavity].stretches) rows.push_back({cavity, &stretch});
+  return rows;
+}
+
+const Table<SampleRow>& sample_columns() {
+  using R = SampleRow;
+  static const Table<R> table({{.key = "frame", .value = [](const R& r) { return Field(r.frame); }},
+                               {.key = "cavity", .value = [](const R& r) { return Field(r.cavity); }},
+                               {.key = "volume", .value = [](const R& r) { return Field(r.sample->volume); }},
+                               {.key = "area", .value = [](const R& r) { return Field(r.sample->area); }}});
+  return table;
+}
+
+std::vector<SampleRow> sample_rows(const VoidsReport& report) {
+  std::vector<SampleRow> rows;
+  for (std::size_t cavity = 0; cavity < report.cavities.size(); ++cavity)
+    for (const VoidSample& sample : report.cavities[cavity].samples)
+      rows.push_back({cavity, report.frames[sample.frame].at.frame, &sample});
+  return rows;
 }
 
 }  // namespace
@@ -223,12 +253,14 @@ void add_voids(const VoidsReport& report, Json& json) {
   json["clock"] = report.has_times ? "ps" : "frames";
   json["rows"] = cavity_columns(report).json(rows_of(report));
   json["short_cavities"] = report.short_ones;
-  json["stretches"] = {{"all", lives.stretches},
-                       {"in_no_frame", lives.unseen},
-                       {"complete", lives.complete},
-                       {"shortest", Field(lives.shortest).json()},
-                       {"median", Field(lives.median).json()},
-                       {"longest", Field(lives.longest).json()}};
+  json["stretches"] = stretch_columns(report).json(stretch_rows(report));
+  json["volumes"] = sample_columns().json(sample_rows(report));
+  json["lives"] = {{"all", lives.stretches},
+                   {"in_no_frame", lives.unseen},
+                   {"complete", lives.complete},
+                   {"shortest", Field(lives.shortest).json()},
+                   {"median", Field(lives.median).json()},
+                   {"longest", Field(lives.longest).json()}};
   json["tunnels"] = {{"begun", report.tunnels_begun}, {"ended", report.tunnels_ended}};
   json["frames"] = frame_columns(report).json(report.frames);
 }
@@ -278,13 +310,10 @@ int voids_command(const Arguments& arguments) {
   json["settings"] = voids_task_options().settings_json(task);
   add_voids(report, json);
   json["warnings"] = command.warnings();
-  TableCommand::Csvs csvs{{"voids.csv", cavity_columns(report).csv(rows_of(report))},
-                          {"frames.csv", frame_columns(report).csv(report.frames)}};
-  const auto add = [&](const char* name, void (*write)(const VoidsReport&, std::ostream&)) {
-    csvs.emplace_back(name, CsvContent([&report, write](std::ostream& stream) { write(report, stream); }));
-  };
-  add("stretches.csv", write_stretches);
-  add("volumes.csv", write_volumes);
+  const TableCommand::Csvs csvs{{"voids.csv", cavity_columns(report).csv(rows_of(report))},
+                                {"stretches.csv", stretch_columns(report).csv(stretch_rows(report))},
+                                {"volumes.csv", sample_columns().csv(sample_rows(report))},
+                                {"frames.csv", frame_columns(report).csv(report.frames)}};
   command.deliver(json, csvs, voids_text(report));
   return 0;
 }

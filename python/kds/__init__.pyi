@@ -112,6 +112,12 @@ class _Surface(_Input, total=False):
     motion: Optional[str]
     threads: Optional[int]
 
+class _Voids(_Input, total=False):
+    obstacle: Optional[Path]
+    probe: Optional[float]
+    motion: Optional[str]
+    persistence: Optional[float]
+
 class _Trade(_Input, total=False):
     want: Optional[Names]
     apart: Optional[int]
@@ -267,6 +273,13 @@ class Surface(_Result):
     def residues_frame(self) -> Table: ...
     def contacts_frame(self) -> Table: ...
 
+class Voids(_Result):
+    stretches: Table
+    volumes: Table
+    frames: Table
+    lives: Dict[str, Any]
+    unit: str
+
 class Trade(_Result):
     recommendation: str
 
@@ -288,6 +301,7 @@ def compare(source: Source, *, verbose: bool = False, **options: Unpack[_Compare
 def update(source: Source, *, verbose: bool = False, **options: Unpack[_Update]) -> Updates: ...
 def collide(source: Source, *, verbose: bool = False, **options: Unpack[_Collide]) -> Collisions: ...
 def surface(source: Source, *, verbose: bool = False, **options: Unpack[_Surface]) -> Surface: ...
+def voids(source: Source, *, verbose: bool = False, **options: Unpack[_Voids]) -> Voids: ...
 def trade(source: Source, *, times_examined: Optional[int] = None, verbose: bool = False,
           **options: Unpack[_Trade]) -> Trade: ...
 def conditions(source: Source, *, verbose: bool = False, **options: Unpack[_Conditions]) -> Conditions: ...

@@ -242,6 +242,49 @@ def surface(source, *, verbose=False, **options):
     return Surface(_analyse(surface, source, options, verbose, "frame"))
 
 
+class Voids(Result):
+    """The cavities of the union of balls. Made by :func:`kds.voids`.
+
+    ``rows``
+        one row for each cavity: when it was first and last closed, for how long in all, its openings, its volume over the
+        frames in which it is closed, and its beads.
+    ``stretches``
+        one row for each stretch of time in which a cavity is closed: how it began and ended, and by which gate.
+    ``volumes``
+        one row for each cavity at each frame in which it is closed.
+    ``frames``
+        the Betti numbers ``b0``, ``b1``, ``b2`` (components, tunnels, voids) and the volume of all voids at each frame.
+    ``lives``
+        how many stretches there are, how many contain no frame, and how long they last, a dictionary.
+    """
+
+    def __init__(self, found):
+        super().__init__(found)
+        for name in ("stretches", "volumes", "frames"):
+            setattr(self, name, table_of_rows(self.json[name]))
+        self.lives = self.json["lives"]
+        self.unit = self.json["unit"]
+
+
+@takes("voids")
+def voids(source, *, verbose=False, **options):
+    """Follows the voids of the union of balls: when each cavity opens and closes, by which gate, its atoms and its volume.
+
+    The input is that of :func:`kds.run`, with all atoms and their van der Waals radii by default. Returns
+    :class:`kds.Voids`.
+
+    >>> import kds
+    >>> import numpy as np
+    >>> corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * [1, 1.01, 1.02]
+    >>> found = kds.voids(np.stack([corners, 1.2 * corners]), radius=1.5)
+    >>> found.frames["b2"], found.rows["ended"]
+    (array([1, 0]), array(['opened'], dtype='<U6'))
+    """
+    if options.get("radius") is None:
+        options["radius"] = "element"
+    return Voids(_analyse(voids, source, options, verbose))
+
+
 class Trade(Result):
     """The cost and the errors of each setting. Made by :func:`kds.trade`. ``recommendation`` says in words which to take."""
 

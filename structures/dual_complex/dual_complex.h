@@ -74,8 +74,9 @@ class DualComplex final : public StructureBase, public BeadEdits, private CellFo
   [[nodiscard]] const TriangulationFaces<Dimension>& faces() const { return faces_; }
   /// Returns whether a live simplex belongs to the complex.
   [[nodiscard]] bool has(SimplexName simplex) const { return of(simplex).belongs; }
-  /// Returns whether the triangulation has cells. Without cells, the complex is empty.
-  [[nodiscard]] bool has_cells() const { return diagram_.is_solid(); }
+  /// Returns whether `faces` and `has` describe the present complex. They do not while the triangulation has
+  /// no cells, where the complex is empty, and in a replay.
+  [[nodiscard]] bool knows_faces() const { return diagram_.is_solid() && !replayed_ && !must_read_all_; }
   /// Returns the simplices of the complex of this dimension, each with its beads ascending, in lexicographic
   /// order. Takes time m log m for m simplices.
   [[nodiscard]] std::vector<SimplexBeads> simplices(int dimension) const;

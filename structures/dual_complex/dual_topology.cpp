@@ -196,7 +196,7 @@ void DualTopology<Dimension>::build() {
   made_.clear();
   cut_.clear();
   euler_ = 0;
-  if (!complex_.has_cells()) return;
+  if (!complex_.knows_faces()) return;
   euler_ = euler_of_complex();
   std::vector<BeadId> beads;
   for (const SimplexBeads& vertex : complex_.simplices(0)) beads.push_back(vertex[0]);
@@ -440,7 +440,7 @@ void DualTopology<Dimension>::apply(const Change& change) {
 
 template <int Dimension>
 std::optional<std::string> DualTopology<Dimension>::audit(const Dyadic&) {
-  if (replayed_ || !complex_.has_cells()) return std::nullopt;
+  if (replayed_ || !complex_.knows_faces()) return std::nullopt;
   // Searches each component and compares its nodes' numbers: one number for each component.
   const auto fault_of = [](const auto& graph, const Components& followed, std::vector<std::uint32_t> nodes,
                            std::string_view name, std::int64_t outside) -> std::optional<std::string> {

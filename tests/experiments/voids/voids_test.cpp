@@ -1,0 +1,151 @@
+// Tests `kds voids`: its options, the stretches of cavities whose times are known, and its files.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "experiments/voids/voids_command.h"
+#include "motions/base/input_error.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test::voids_command_test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(VoidsOptions, DefaultsAndAll) {
+  const VoidsTask plain = parse_voids_options({"a.pdb"}).task;
+  EXPECT_EQ(plain.radius, "element");
+  EXPECT_EQ(plain.probe_length(), 1.4);
+  EXPECT_EQ(plain.persistence, 0);
+  const VoidsTask all =
+      parse_voids_options({"a.pdb", "--radius", "2", "--persistence", "0.5", "--motion", "hermite"}).task;
+  EXPECT_EQ(all.probe_length(), 0);
+  EXPECT_EQ(all.persistence, 0.5);
+  EXPECT_EQ(all.motion, FrameMotion::hermite);
+  EXPECT_THROW(static_cast<void>(parse_voids_options({"a.pdb", "--persistence", "-1"})), InputError);
+  EXPECT_THROW(static_cast<void>(parse_voids_options({"a.pdb", "--probe", "x"})), InputError);
+}
+
+/// Eight balls of radius 1.5 at the corners of a cube, whose edges have this length in each frame. The void
+/// around its centre is closed from 3 / sqrt(2) below and filled at sqrt(3) below: six faces open at once.
+std::string cube(const std::vector<double>& edges) {
+  std::string text;
+  for (const double edge : edges) {
+    text += "8\n\n";
+    for (unsigned corner = 0; corner < 8; ++corner)
+      text += fmt::format("C {} {} {}\n", edge * (corner & 1U), edge * (corner >> 1U & 1U),
+                          edge * (corner >> 2U & 1U));
+  }
+  return text;
+}
+
+struct Cube {
+  ScratchDirectory directory;
+
+  Json json(const std::vector<double>& edges, std::vector<std::string> options = {}) const {
+    const std::string file = directory.file("cube.xyz", cube(edges));
+    options.insert(options.begin(), {"voids", file, "--radius", "1.5", "--json", "-"});
+    const ProgramRun run = run_program(options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Json::parse(run.out);
+  }
+};
+
+const double opens_at = 3 / std::numbers::sqrt2;  // balls at opposite corners of a face touch
+const double fills_at = std::numbers::sqrt3;      // balls at opposite corners of the cube touch
+
+/// Counts the points of a fine grid that are in the cube of edge 2 and outside the balls. An eighth of the
+/// cube is nearest to the ball at the origin.
+double outside_of_balls() {
+  constexpr int points = 200;  // along an edge of the eighth
+  int outside = 0;
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j)
+      for (int k = 0; k < points; ++k) {
+        const double x = (i + 0.5) / points, y = (j + 0.5) / points, z = (k + 0.5) / points;
+        if (x * x + y * y + z * z > 1.5 * 1.5) ++outside;
+      }
+  return 8.0 * outside / (1.0 * points * points * points);
+}
+
+TEST(Voids, OpenAndCloseAtKnownTimes) {
+  // Edges grow from 2 to 2.5 and shrink again, then the void is filled.
+  const Json json = Cube().json({2, 2.5, 2, 1.5});
+  ASSERT_EQ(json["rows"].size(), 1U);
+  EXPECT_EQ(json["rows"][0]["openings"], 1);
+  EXPECT_EQ(json["rows"][0]["ended"], "filled");
+  EXPECT_EQ(json["rows"][0]["atoms"], 8);
+  ASSERT_EQ(json["stretches"].size(), 2U);
+  const Json &first = json["stretches"][0], &second = json["stretches"][1];
+  EXPECT_EQ(first["began"], "start");
+  EXPECT_EQ(first["ended"], "opened");
+  EXPECT_NEAR(first["end_frame"].get<double>(), (opens_at - 2) / 0.5, 1e-11);
+  EXPECT_EQ(second["began"], "closed");
+  EXPECT_NEAR(second["begin_frame"].get<double>(), 2 - (opens_at - 2) / 0.5, 1e-11);
+  EXPECT_NEAR(second["end_frame"].get<double>(), 2 + (2 - fills_at) / 0.5, 1e-11);
+  EXPECT_EQ(json["lives"]["all"], 2);
+  EXPECT_EQ(json["lives"]["complete"], 1);
+  EXPECT_EQ(json["lives"]["in_no_frame"], 0);
+  std::vector<int> voids;
+  for (const Json& frame : json["frames"]) voids.push_back(frame["b2"].get<int>());
+  EXPECT_THAT(voids, ElementsAre(1, 0, 1, 0));
+  EXPECT_NEAR(json["volumes"][0]["volume"].get<double>(), outside_of_balls(), 2e-4);
+}
+
+TEST(Voids, ShortOpeningsAreBridgedAndShortCavitiesLeftOut) {
+  const double open = 2 * (1 - (opens_at - 2) / 0.5);  // frames
+  const Json bridged = Cube().json({2, 2.5, 2}, {"--persistence", fmt::format("{}", open + 0.01)});
+  ASSERT_EQ(bridged["stretches"].size(), 1U);
+  EXPECT_EQ(bridged["rows"][0]["openings"], 0);
+  EXPECT_EQ(bridged["lives"]["all"], 2);  // before they are bridged
+  const Json open_once = Cube().json({2, 2.5, 2}, {"--persistence", fmt::format("{}", open - 0.01)});
+  EXPECT_EQ(open_once["rows"][0]["openings"], 1);
+  const Json none = Cube().json({2, 2.5}, {"--persistence", "0.5"});
+  EXPECT_EQ(none["rows"].size(), 0U);
+  EXPECT_EQ(none["short_cavities"], 1);
+}
+
+TEST(Voids, ThatNoFrameShowsAreCounted) {
+  // The void closes and is filled between two frames.
+  const ScratchDirectory directory;
+  const std::string file = directory.file("cube.xyz", cube({2.5, 1.5}));
+  const ProgramRun run = run_program({"voids", file, "--radius", "1.5"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out,
+              HasSubstr("1 stretches of time in which a cavity is closed; 1 of them contain no frame."));
+}
+
+TEST(Voids, AreWrittenToFilesAndAPage) {
+  const ScratchDirectory directory;
+  const std::string file = directory.file("cube.xyz", cube({2, 2.5, 2}));
+  const std::string out = directory / "out", page = directory / "out/view.html";
+  const ProgramRun run =
+      run_program({"voids", file, "--radius", "1.5", "--out", out, "--view", page, "--quiet"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  for (const char* name :
+       {"voids.json", "voids.csv", "stretches.csv", "volumes.csv", "frames.csv", "report.html", "view.html"})
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(out) / name)) << name;
+}
+
+TEST(Voids, RefusePlanarScenes) {
+  const ScratchDirectory directory;
+  const std::string flat =
+      directory.file("flat.xyz", "3\n\nC 0 0 0\nC 1 0 0\nC 0 1 0\n3\n\nC 0 0 0\nC 1 0 0\nC 0 2 0\n");
+  const ProgramRun run = run_program({"voids", flat, "--radius", "1"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("kds voids expects balls in space"));
+}
+
+}  // namespace
+}  // namespace kds::test::voids_command_test
