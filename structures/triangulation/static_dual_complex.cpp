@@ -15,12 +15,13 @@ using Triangulation = CgalOf<3>::Type;
 using Vertex = Triangulation::Vertex_handle;
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
-/// A triangle of the triangulation. Edges are numbers until the complex is known.
-struct Facet {
-  std::array<BeadId, 3> corners;
-  std::array<std::uint32_t, 3> edges{};  // edges[i] is opposite to corners[i]
+/// A triangle of the triangulation. Its edges are numbers in the triangulation until the complex is known.
+struct Facet : ComplexSimplices::Triangle {
   bool belongs = false;
 };
+std::uint32_t edge_opposite(const ComplexSimplices::Triangle& triangle, BeadId bead) {
+  return triangle.edges[triangle.beads[0] == bead ? 0 : triangle.beads[1] == bead ? 1 : 2];
+}
 
 struct Edge {
   std::array<BeadId, 2> ends;  // ascending
@@ -42,9 +43,9 @@ class Builder {
         edge_between(e.first->vertex(e.second)->info(), e.first->vertex(e.third)->info());
     if (triangulation.dimension() == 2)
       for (const auto& [cell, i] : triangulation.finite_facets()) {
-        const std::array<BeadId, 3> corners{cell->vertex(0)->info(), cell->vertex(1)->info(),
-                                            cell->vertex(2)->info()};
-        facets_[add_facet(corners)].belongs = is_small(corners);
+        const BeadId a = cell->vertex(0)->info(), b = cell->vertex(1)->info(), c = cell->vertex(2)->info();
+        facets_[add_facet({a, b, c}, {edge_between(b, c), edge_between(c, a), edge_between(a, b)})].belongs =
+            is_small(std::array{a, b, c});
       }
     if (triangulation.dimension() == 3) read_cells();
     decide_edges();
@@ -61,7 +62,7 @@ class Builder {
     for (std::size_t f = 0; f < facets_.size(); ++f) {
       if (!facets_[f].belongs) continue;
       facet_places[f] = static_cast<std::uint32_t>(result_.triangles.size());
-      auto& triangle = result_.triangles.emplace_back(facets_[f].corners, facets_[f].edges);
+      auto& triangle = result_.triangles.emplace_back(facets_[f]);
       for (std::uint32_t& edge : triangle.edges) edge = edge_places[edge];
     }
     for (auto& [beads, edges, triangles] : result_.tetrahedra) {
@@ -69,10 +70,7 @@ class Builder {
       for (std::size_t e = 0; e < 6; ++e) {
         // In a triangle at the edge, the edge is opposite to the bead that is none of its ends.
         const auto [k, l] = tetrahedron_edges[5 - e];
-        const auto& triangle = result_.triangles[triangles[k]];
-        std::size_t corner = 0;
-        while (triangle.beads[corner] != beads[l]) ++corner;
-        edges[e] = triangle.edges[corner];
+        edges[e] = edge_opposite(result_.triangles[triangles[k]], beads[l]);
       }
     }
     return std::move(result_);
@@ -108,8 +106,8 @@ class Builder {
         {{a, b}, std::exchange(first_edge_[a], edge)});  // in front, where it is soon looked up again
     return edge;
   }
-  std::uint32_t add_facet(const std::array<BeadId, 3>& c) {
-    facets_.push_back({c, {edge_between(c[1], c[2]), edge_between(c[2], c[0]), edge_between(c[0], c[1])}});
+  std::uint32_t add_facet(const std::array<BeadId, 3>& beads, const std::array<std::uint32_t, 3>& edges) {
+    facets_.push_back({{beads, edges}});
     return static_cast<std::uint32_t>(facets_.size() - 1);
   }
 
@@ -132,7 +130,15 @@ class Builder {
       std::array<std::uint32_t, 4> own = facets_of_cell(c);
       for (std::size_t i = 0; i < 4; ++i) {
         if (own[i] == none) {
-          own[i] = add_facet({beads[(i + 1) % 4], beads[(i + 2) % 4], beads[(i + 3) % 4]});
+          std::array<BeadId, 3> corners;
+          std::array<std::uint32_t, 3> edges;
+          for (std::size_t k = 0; k < 3; ++k) corners[k] = beads[(i + 1 + k) % 4];
+          for (std::size_t k = 0; k < 3; ++k) {  // the edge is also in the facet opposite to corner k
+            const std::uint32_t other = own[(i + 1 + k) % 4];
+            edges[k] = other != none ? edge_opposite(facets_[other], beads[i])
+                                     : edge_between(corners[(k + 1) % 3], corners[(k + 2) % 3]);
+          }
+          own[i] = add_facet(corners, edges);
           const auto neighbor = c->neighbor(static_cast<int>(i));
           const int back = neighbor->index(c);
           const BeadId opposite = neighbor->vertex(back)->info();
@@ -145,9 +151,9 @@ class Builder {
     }
     for (std::size_t f = 0; f < facets_.size(); ++f) {
       Facet& facet = facets_[f];
-      facet.belongs = facet.belongs || (is_small(facet.corners) &&
+      facet.belongs = facet.belongs || (is_small(facet.beads) &&
                                         std::none_of(beyond[f].begin(), beyond[f].end(), [&](BeadId bead) {
-                                          return bead != infinite_bead && conflicts(bead, facet.corners);
+                                          return bead != infinite_bead && conflicts(bead, facet.beads);
                                         }));
     }
   }
@@ -158,8 +164,8 @@ class Builder {
         for (const std::uint32_t e : facet.edges) edges_[e].belongs = true;
     for (Edge& edge : edges_) edge.may_belong = !edge.belongs && is_small(edge.ends);
     for (const Facet& facet : facets_)
-      for (std::size_t i = 0; i < 3; ++i)
-        if (Edge& edge = edges_[facet.edges[i]]; edge.may_belong && conflicts(facet.corners[i], edge.ends))
+      for (std::size_t i = 0; i < 3 && !facet.belongs; ++i)
+        if (Edge& edge = edges_[facet.edges[i]]; edge.may_belong && conflicts(facet.beads[i], edge.ends))
           edge.may_belong = false;
     for (Edge& edge : edges_) edge.belongs |= edge.may_belong;
   }
