@@ -64,7 +64,9 @@ struct TriangleTerms {
   /// In the triangle's plane: signed distance of the triangle's centre from the edge opposite to bead i,
   /// towards bead i.
   std::array<double, 3> inward{};
-  std::array<double, 3> cosine{}, sine{};  ///< of the angle at bead i
+  /// Length of the edge opposite to bead i; product of the vectors from bead i to the others.
+  std::array<double, 3> length{}, product{};
+  double doubled_area = 0;
 };
 
 template <class Number>
@@ -74,23 +76,18 @@ TriangleTerms terms_of(const Balls<Number, 3>& balls) {
   const Number a11 = dot(a[1], a[1]), a12 = dot(a[1], a[2]), a22 = dot(a[2], a[2]),
                squared = dot(normal, normal);
   const Vector<Number> third = minus(a[2], a[1]);
-  const std::array<double, 3> lengths{root(to_double(dot(third, third))), root(to_double(a22)),
-                                      root(to_double(a11))};
-  const std::array<Number, 3> dots{a12, a11 - a12, a22 - a12};
   TriangleTerms terms;
-  const double area = root(to_double(squared));
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double sides = lengths[(i + 1) % 3] * lengths[(i + 2) % 3];
-    terms.cosine[i] = to_double(dots[i]) / sides;
-    terms.sine[i] = area / sides;
-  }
+  terms.length = {root(to_double(dot(third, third))), root(to_double(a22)), root(to_double(a11))};
+  terms.product = {to_double(a12), to_double(Number(a11 - a12)), to_double(Number(a22 - a12))};
+  terms.doubled_area = root(to_double(squared));
   if (squared == 0) {  // the radical planes are equal, so each line through the circle's centre is a chord
     terms.half_chord = root(to_double(Number(weight - b[1] * b[1] / (4 * a11))));
     return terms;
   }
   const Number m1 = b[1] * a22 - b[2] * a12, m2 = b[2] * a11 - b[1] * a12;
   const std::array<Number, 3> barycentric{2 * squared - m1 - m2, m1, m2};  // of the centre, times 2 `squared`
-  for (std::size_t i = 0; i < 3; ++i) terms.inward[i] = to_double(barycentric[i]) / (2 * area * lengths[i]);
+  for (std::size_t i = 0; i < 3; ++i)
+    terms.inward[i] = to_double(barycentric[i]) / (2 * terms.doubled_area * terms.length[i]);
   const Number chord = weight - (b[1] * m1 + b[2] * m2) / (4 * squared);
   terms.half_chord = root(to_double(chord));
   return terms;
@@ -227,8 +224,9 @@ Meeting meet(const TriangleTerms& t, const std::array<double, 3>& radii, Distanc
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     const double r = radii[i], to_j = distance(i, k), to_k = distance(i, j);
     if (r == 0) continue;
-    const double corner =
-        std::atan2(t.half_chord * t.sine[i] / r, to_j / r * (to_k / r) - t.cosine[i]);  // of the lens
+    const double sides = t.length[j] * t.length[k];
+    const double corner = std::atan2(t.half_chord * t.doubled_area / (sides * r),
+                                     to_j / r * (to_k / r) - t.product[i] / sides);  // of the lens
     // The corner's angle is uncertain if a circle is tiny, but then its cap is tiny too.
     m.lens[i] = std::clamp(2 * r * (r * corner - m.half_angle[k] * to_j - m.half_angle[j] * to_k), 0.0,
                            std::max(0.0, cap(r, std::max(to_j, to_k))));

@@ -9,7 +9,7 @@
 // follow from the theorem of Gauss and Bonnet. docs/dual_complex.md has the formulas.
 //
 // The complex says which terms are summed; the terms are doubles. Results deviate by less than 1e-9 of the
-// sphere or ball of the bead (a contact: of the disc of the smaller ball), for ratios of radii up to 1e6. The
+// sphere or ball of the bead (a contact: of the disc of the smaller ball), for ratios of radii up to 1e5. The
 // terms of nearly flat simplices, and of balls whose radii differ by more than a factor of 100, are computed
 // with rational numbers before square roots and angles.
 //
