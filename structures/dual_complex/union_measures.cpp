@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 #include "motions/base/floating_point_scope.h"
 #include "motions/numbers/exact_number.h"
@@ -278,7 +279,8 @@ UnionMeasures measure_union(const Eigen::Matrix3Xd& centers, std::span<const dou
   }
 
   for (std::size_t t = 0; t < sides.size(); ++t) {
-    const auto& [beads, of] = complex.triangles[t];
+    const std::array<BeadId, 3>& beads = complex.triangles[t].beads;
+    const std::array<std::uint32_t, 3>& of = complex.triangles[t].edges;
     const TriangleTerms terms = balls.terms(beads);
     const double open = 2 - sides[t].tetrahedra, length = sides[t].length + open * terms.half_chord;
     for (std::size_t i = 0; i < 3; ++i) edges[of[i]].moments += terms.inward[i] * length;

@@ -19,6 +19,7 @@
 // are.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
