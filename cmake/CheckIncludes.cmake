@@ -16,7 +16,7 @@ file(GLOB others RELATIVE "${ROOT}" LIST_DIRECTORIES ON "${ROOT}/structures/*")
 list(FILTER others EXCLUDE REGEX "[.]txt$|/session$")
 list(REMOVE_ITEM others ${order})
 list(APPEND order ${others} structures/session)
-room(experiments output program events view run scenes update compare contacts collide surface impacts trade stability bench sweep)
+room(experiments output program events view run scenes update compare contacts collide surface voids impacts trade stability bench sweep)
 list(APPEND order experiments)  # main.cpp
 list(APPEND order python)
 

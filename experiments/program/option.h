@@ -428,7 +428,7 @@ template <class Options>
   return real_option(
       {"--probe", "LENGTH",
        fmt::format("power and dual: radius of a probe, which is added to the radii of the beads "
-                   "(default: 1.4 for dual with {} element, otherwise 0)",
+                   "(default: 1.4 for dual and voids with {} element, otherwise 0)",
                    "--radius"_arg)},
       probe, {0, 1e150});
 }

@@ -1,8 +1,10 @@
 #include "experiments/voids/follow_voids.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -21,11 +23,18 @@ namespace {
 using Topology = DualTopology<3>;
 using Number = Topology::Number;
 
-/// Keeps the events of the topology until they are handled.
+void add_to_zigzag(std::string& zigzag, bool inserts, std::span<const BeadId> beads) {
+  fmt::format_to(std::back_inserter(zigzag), "{} {}\n", inserts ? 'i' : 'd', fmt::join(beads, " "));
+}
+
+/// Keeps the events of the topology until they are handled, and writes those of the complex.
 class TopologyEvents final : public EventListener {
  public:
+  explicit TopologyEvents(std::string& zigzag) : zigzag_(zigzag) {}
+
   void on_event(const Event& event) override {
     if (event.structure == "voids") events.push_back(event);
+    if (event.structure == "dual") add_to_zigzag(zigzag_, event.change.kind % 2 == 0, event.ids());
   }
   [[nodiscard]] bool prints_time_of(const Event& event) const override {
     return event.structure == "voids" && is_of_void(event.change.kind);
@@ -35,6 +44,9 @@ class TopologyEvents final : public EventListener {
   }
 
   std::vector<Event> events;
+
+ private:
+  std::string& zigzag_;
 };
 
 /// Follows cavities from the events of the topology.
@@ -186,9 +198,13 @@ VoidsReport follow_voids(const VoidsTask& task, const std::function<void(std::si
 
   KineticRun run(scene, {{"voids"}});
   watch_exact_work(run.simulator(), scene, warn);
-  TopologyEvents heard;
+  TopologyEvents heard(report.zigzag);
   run.listen(heard);
   run.build();
+  const auto& complex = run.structure<DualComplex<3>>(run.structures().size() - 2);
+  for (int dimension = 0; dimension <= 3; ++dimension)
+    for (const SimplexBeads& simplex : complex.simplices(dimension))
+      add_to_zigzag(report.zigzag, true, std::span(simplex).first(static_cast<std::size_t>(dimension) + 1));
   const auto& topology = run.structure<Topology>(run.structures().size() - 1);
   CavityFollower follower(topology);
   const auto moment = [&](std::size_t frame) {

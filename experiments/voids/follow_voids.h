@@ -79,6 +79,9 @@ struct VoidsReport {
   std::vector<ClosedStretch> all;  ///< of all cavities, before openings are bridged
   std::vector<TopologyAtFrame> frames;
   std::uint64_t tunnels_begun = 0, tunnels_ended = 0;
+  /// The complex as a zigzag filtration: a line "i 3 7" inserts the simplex of beads 3 and 7, "d 3 7" deletes
+  /// it. Begins with the simplices of the first frame.
+  std::string zigzag;
 };
 
 /// Reads the inputs and follows all voids on one thread. Each warning goes to `warn` as one line. Throws

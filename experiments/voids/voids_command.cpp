@@ -103,7 +103,7 @@ Table<CavityRow> cavity_columns(const VoidsReport& report) {
   const auto volume = [&](const char* key, const char* heading, int which) {
     return column(
         key, in_unit(report, heading, 3), [which](const R& r) { return Field(r.volume(which)); },
-        with_decimals(2));
+        shortly);
   };
   return Table<R>(
       {column("cavity", "cavity", [](const R& r) { return Field(r.number); }),
@@ -235,8 +235,9 @@ VoidsOptions parse_voids_options(const Arguments& arguments) {
       OptionList<O>()
           .with(&O::task, voids_task_options())
           .with(&O::destinations,
-                destination_options("write voids.json, voids.csv, stretches.csv, volumes.csv, frames.csv and "
-                                    "report.html to DIR (default: none)"))
+                destination_options("write voids.json, voids.csv, stretches.csv, volumes.csv, frames.csv, "
+                                    "zigzag.txt (all simplices as a zigzag filtration) and report.html to "
+                                    "DIR (default: none)"))
           .with({view_option(&O::view,
                              "run once more, and write a page that shows the complex and its voids in a "
                              "browser to FILE (default: none)")});
@@ -313,7 +314,8 @@ int voids_command(const Arguments& arguments) {
   const TableCommand::Csvs csvs{{"voids.csv", cavity_columns(report).csv(rows_of(report))},
                                 {"stretches.csv", stretch_columns(report).csv(stretch_rows(report))},
                                 {"volumes.csv", sample_columns().csv(sample_rows(report))},
-                                {"frames.csv", frame_columns(report).csv(report.frames)}};
+                                {"frames.csv", frame_columns(report).csv(report.frames)},
+                                {"zigzag.txt", report.zigzag}};
   command.deliver(json, csvs, voids_text(report));
   return 0;
 }

@@ -133,8 +133,8 @@ TEST(Voids, AreWrittenToFilesAndAPage) {
   const ProgramRun run =
       run_program({"voids", file, "--radius", "1.5", "--out", out, "--view", page, "--quiet"});
   EXPECT_EQ(run.code, 0) << run.err;
-  for (const char* name :
-       {"voids.json", "voids.csv", "stretches.csv", "volumes.csv", "frames.csv", "report.html", "view.html"})
+  for (const char* name : {"voids.json", "voids.csv", "stretches.csv", "volumes.csv", "frames.csv",
+                           "zigzag.txt", "report.html", "view.html"})
     EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(out) / name)) << name;
 }
 
