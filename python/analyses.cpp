@@ -202,7 +202,7 @@ py::dict surface(const Arguments& arguments, const py::object& progress) {
 py::dict voids(const Arguments& arguments, const py::object& progress) {
   const VoidsTask task = parse_voids_options(arguments).task;
   return run_analysis(progress, [&](const Progress& look, const Warn& warn) {
-    const VoidsReport report = follow_voids(task, look, warn);
+    const VoidsReport report = follow_voids(task, false, look, warn);
     Found found;
     add_voids(report, found.json);
     found.table = voids_text(report);

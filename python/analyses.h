@@ -28,7 +28,7 @@ namespace kds::python {
 /// `contact_areas`; `names` of the beads, `residue_of` (for each bead, -1 without residues), `residue_names`,
 /// `chain_of` and `chain_names`.
 [[nodiscard]] pybind11::dict surface(const Arguments& arguments, const pybind11::object& progress);
-/// `kds voids`.
+/// `kds voids`. Adds no arrays.
 [[nodiscard]] pybind11::dict voids(const Arguments& arguments, const pybind11::object& progress);
 /// `kds trade`.
 [[nodiscard]] pybind11::dict trade(const Arguments& arguments, const pybind11::object& progress);

@@ -153,19 +153,6 @@ class ContactsRun {
   std::vector<Followed> followed_;
 };
 
-/// Throws InputError if lengths of time have no meaning, because a frame is not later than the one before.
-void check_times_ascend(const ContactsTask& task, const Scene& scene) {
-  for (std::size_t frame = 1; frame < scene.frame_count(); ++frame) {
-    const FrameStamp before = scene.stamp(frame - 1), now = scene.stamp(frame);
-    if (!before.picoseconds || !now.picoseconds || *before.picoseconds < *now.picoseconds) continue;
-    throw InputError(
-        fmt::format("{}: the time does not advance from frame {}, {} ps, to frame {}, {} ps; lengths of time "
-                    "need ascending times, expected {} PS or other {}",
-                    file_names(task), before.number, *before.picoseconds, now.number, *now.picoseconds,
-                    "--dt"_arg, frames_argument()));
-  }
-}
-
 template <int D>
 void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report,
             const std::function<void(std::size_t, std::size_t)>& progress) {
@@ -280,7 +267,7 @@ std::unique_ptr<ContactsReport> follow_contacts(
     const std::function<void(std::size_t, std::size_t)>& progress) {
   if (scene.frame_count() < 2)
     throw InputError(fmt::format("{}: has one frame, expected two or more", file_names(task)));
-  check_times_ascend(task, scene);
+  require_ascending_times(task, scene);
   const auto strides = strides_that_fit(task.strides, scene.frame_count(), task);
   auto report = std::make_unique<ContactsReport>(scene.step_count());
   const std::optional<BeadId> nameless = bead_without_residue(scene);

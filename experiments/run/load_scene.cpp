@@ -47,6 +47,18 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   return read_instance(*instance);
 }
 
+void require_ascending_times(const InputOptions& input, const Scene& scene) {
+  for (std::size_t frame = 1; frame < scene.frame_count(); ++frame) {
+    const FrameStamp before = scene.stamp(frame - 1), now = scene.stamp(frame);
+    if (!before.picoseconds || !now.picoseconds || *before.picoseconds < *now.picoseconds) continue;
+    throw InputError(
+        fmt::format("{}: the time does not advance from frame {}, {} ps, to frame {}, {} ps; lengths of time "
+                    "need ascending times, expected {} PS or other {}",
+                    file_names(input), before.number, *before.picoseconds, now.number, *now.picoseconds,
+                    "--dt"_arg, frames_argument()));
+  }
+}
+
 void refuse_instance(const InputOptions& options, std::string_view what) {
   if (const auto instance = read_lone_instance(options))
     throw InputError(fmt::format("{}: an instance file has {}; expected a trajectory", instance->file, what));

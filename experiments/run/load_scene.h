@@ -41,6 +41,8 @@ void refuse_instance(const InputOptions& options, std::string_view what = "no fr
                                    const std::function<void(const std::string&)>& warn,
                                    const std::optional<MotionTolerance>& tolerance = {},
                                    bool* lone_frame = nullptr);
+/// Throws InputError if lengths of time have no meaning, because a frame is not later than the one before.
+void require_ascending_times(const InputOptions& input, const Scene& scene);
 /// Says to `warn` that `what` leaves out the images of beads across the walls of a periodic cell.
 void warn_of_images(std::string_view what, const std::function<void(const std::string&)>& warn);
 /// Says to `warn` why `what` of images are not found although frames have cells, if that is so.

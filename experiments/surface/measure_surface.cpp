@@ -33,7 +33,11 @@ void measure(const MeasuredBalls& balls, const Eigen::Matrix3Xd& centers, Surfac
   UnionMeasures measures = measure_union(centers, balls.radii, complex);
   frame.area = std::accumulate(measures.areas.begin(), measures.areas.end(), 0.0);
   frame.volume = std::accumulate(measures.volumes.begin(), measures.volumes.end(), 0.0);
-  if (!std::isfinite(frame.volume)) throw InputError("the balls are so large that their volume is no double");
+  const double largest = *std::max_element(balls.radii.begin(), balls.radii.end());
+  // The union contains its largest ball, so its area is at least that of the ball.
+  if (!std::isfinite(frame.volume) || frame.area < 12 * largest * largest)
+    throw InputError(
+        "the balls are too large for their distances: doubles do not hold their areas and volumes");
   if (balls.residues != nullptr) {
     frame.residue_areas.resize(balls.residues->names.size());
     frame.residue_volumes.resize(balls.residues->names.size());

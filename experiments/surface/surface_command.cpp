@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 #include <ostream>
+#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "experiments/output/table.h"
-#include "experiments/output/text.h"
 #include "experiments/program/commands.h"
 #include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
@@ -53,10 +53,6 @@ const OptionList<SurfaceTask>& surface_task_options() {
   return list;
 }
 
-std::string squared(const SurfaceReport& report, const std::string& quantity, int power = 2) {
-  return report.unit.empty() ? quantity : fmt::format("{} ({}^{})", quantity, report.unit, power);
-}
-
 Table<SurfaceFrame> frame_columns(const SurfaceReport& report) {
   using F = SurfaceFrame;
   Table<F> table({{.key = "frame", .heading = "frame", .value = [](const F& f) { return Field(f.frame); }}});
@@ -65,16 +61,16 @@ Table<SurfaceFrame> frame_columns(const SurfaceReport& report) {
                   return Field(f.picoseconds);
                 }}});
   table.add({{.key = "area",
-              .heading = squared(report, "area"),
+              .heading = in_unit("area", report.unit, 2),
               .value = [](const F& f) { return Field(f.area); },
               .format = with_decimals(3)},
              {.key = "volume",
-              .heading = squared(report, "volume", 3),
+              .heading = in_unit("volume", report.unit, 3),
               .value = [](const F& f) { return Field(f.volume); },
               .format = with_decimals(3)}});
   if (report.chains.names.size() > 1)
     table.add({{.key = "between_chains",
-                .heading = squared(report, "contact between chains"),
+                .heading = in_unit("contact between chains", report.unit, 2),
                 .value = [](const F& f) { return Field(f.buried()); },
                 .format = with_decimals(3)}});
   return table;
@@ -124,13 +120,13 @@ std::vector<Summary> residue_summaries(const SurfaceReport& report) {
 std::vector<Summary> chain_summaries(const SurfaceReport& report) {
   std::vector<Summary> summaries;
   const std::vector<std::string>& names = report.chains.names;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, bool> pairs;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (const SurfaceFrame& frame : report.frames)
-    for (const auto& [pair, area] : frame.between) pairs[pair] = true;
-  for (const auto& [pair, any] : pairs)
+    for (const auto& [pair, area] : frame.between) pairs.insert(pair);
+  for (const auto& pair : pairs)
     summaries.push_back(summary_of(fmt::format("{} and {}", names[pair.first], names[pair.second]), report,
-                                   [&key = pair](const SurfaceFrame& f) {
-                                     const auto found = f.between.find(key);
+                                   [&pair](const SurfaceFrame& f) {
+                                     const auto found = f.between.find(pair);
                                      return found == f.between.end() ? 0 : found->second;
                                    }));
   return summaries;
@@ -204,10 +200,11 @@ std::string surface_text(const SurfaceReport& report) {
     text = frame_columns(report).text(report.frames);
   } else {
     std::vector<Summary> totals{
-        summary_of(squared(report, "area"), report, [](const SurfaceFrame& f) { return f.area; }),
-        summary_of(squared(report, "volume", 3), report, [](const SurfaceFrame& f) { return f.volume; })};
+        summary_of(in_unit("area", report.unit, 2), report, [](const SurfaceFrame& f) { return f.area; }),
+        summary_of(in_unit("volume", report.unit, 3), report,
+                   [](const SurfaceFrame& f) { return f.volume; })};
     if (report.chains.names.size() > 1)
-      totals.push_back(summary_of(squared(report, "contact between chains"), report,
+      totals.push_back(summary_of(in_unit("contact between chains", report.unit, 2), report,
                                   [](const SurfaceFrame& f) { return f.buried(); }));
     text = summary_columns().text(totals);
   }
@@ -216,12 +213,12 @@ std::string surface_text(const SurfaceReport& report) {
   std::partial_sort(residues.begin(), residues.begin() + static_cast<std::ptrdiff_t>(shown), residues.end(),
                     [](const Summary& a, const Summary& b) { return a.mean > b.mean; });
   if (shown > 0)
-    text += fmt::format("\n{} of residues, the largest {} of {}:\n", squared(report, "Area"), shown,
+    text += fmt::format("\n{} of residues, the largest {} of {}:\n", in_unit("Area", report.unit, 2), shown,
                         residues.size()) +
             summary_columns().text(std::span(residues).first(shown));
   const std::vector<Summary> chains = chain_summaries(report);
   if (!chains.empty())
-    text += fmt::format("\n{} of pairs of chains:\n", squared(report, "Contact area")) +
+    text += fmt::format("\n{} of pairs of chains:\n", in_unit("Contact area", report.unit, 2)) +
             summary_columns().text(chains);
   return text;
 }

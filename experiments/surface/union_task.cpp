@@ -30,9 +30,16 @@ const OptionList<UnionTask>& union_options() {
   return list;
 }
 
+std::string in_unit(const std::string& quantity, const std::string& unit, int power) {
+  return unit.empty() ? quantity : fmt::format("{} ({}^{})", quantity, unit, power);
+}
+
 Scene load_union(const UnionTask& task, std::string_view command,
                  const std::function<void(const std::string&)>& warn, bool* lone_frame) {
-  refuse_instance(task, "points and one step");
+  InputOptions of_files = task;  // without the defaults that an instance file refuses
+  of_files.radius = InputOptions().radius;
+  of_files.reading.selection = InputOptions().reading.selection;
+  refuse_instance(of_files, "points and one step");
   Scene scene = load_necklaces(task, task.motion, 1, warn, {}, lone_frame);
   scene.set_probe(task.probe_length());
   if (scene.dimension() != 3)

@@ -26,6 +26,8 @@ struct UnionTask : InputOptions {
 };
 
 [[nodiscard]] const OptionList<UnionTask>& union_options();
+/// Returns "volume (angstrom^3)" for the power 3, or the quantity alone if lengths have no unit.
+[[nodiscard]] std::string in_unit(const std::string& quantity, const std::string& unit, int power);
 
 /// Reads the scene, whose radii get the probe, for a command of this name ("kds surface"). Each warning goes
 /// to `warn` as one line. Sets `lone_frame` as load_necklaces does. Throws InputError, also if all beads stay

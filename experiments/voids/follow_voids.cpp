@@ -4,10 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <utility>
 
+#include "experiments/run/load_scene.h"
 #include "experiments/run/run_scene.h"
 #include "kds/event_log.h"
 #include "motions/base/input_error.h"
@@ -23,18 +25,35 @@ namespace {
 using Topology = DualTopology<3>;
 using Number = Topology::Number;
 
-void add_to_zigzag(std::string& zigzag, bool inserts, std::span<const BeadId> beads) {
-  fmt::format_to(std::back_inserter(zigzag), "{} {}\n", inserts ? 'i' : 'd', fmt::join(beads, " "));
-}
-
-/// Keeps the events of the topology until they are handled, and writes those of the complex.
-class TopologyEvents final : public EventListener {
+/// The complex as a zigzag filtration, and its lines.
+class Zigzag {
  public:
-  explicit TopologyEvents(std::string& zigzag) : zigzag_(zigzag) {}
+  Zigzag(std::string& text, bool keep) : text_(text), keep_(keep) {}
+
+  void add(bool inserts, std::span<const BeadId> beads) {
+    ++lines_;
+    if (keep_)
+      fmt::format_to(std::back_inserter(text_), "{} {}\n", inserts ? 'i' : 'd', fmt::join(beads, " "));
+  }
+  [[nodiscard]] std::size_t lines() const { return lines_; }
+
+ private:
+  std::string& text_;
+  bool keep_;
+  std::size_t lines_ = 0;
+};
+
+/// Keeps the events of voids until they are handled, and writes those of the complex.
+class VoidEvents final : public EventListener {
+ public:
+  explicit VoidEvents(Zigzag& zigzag) : zigzag_(zigzag) {}
 
   void on_event(const Event& event) override {
     if (event.structure == "voids") events.push_back(event);
-    if (event.structure == "dual") add_to_zigzag(zigzag_, event.change.kind % 2 == 0, event.ids());
+    if (event.structure == "dual") {
+      const int dimension = event.change.size - 1;
+      zigzag_.add(event.change.kind == DualComplex<3>::begins(dimension), event.ids());
+    }
   }
   [[nodiscard]] bool prints_time_of(const Event& event) const override {
     return event.structure == "voids" && is_of_void(event.change.kind);
@@ -46,7 +65,7 @@ class TopologyEvents final : public EventListener {
   std::vector<Event> events;
 
  private:
-  std::string& zigzag_;
+  Zigzag& zigzag_;
 };
 
 /// Follows cavities from the events of the topology.
@@ -56,7 +75,7 @@ class CavityFollower {
 
   void begin(const VoidMoment& start) {
     for (const auto& [number, cells] : topology_.voids()) {
-      cavity_of_[number] = add({start, "start", {}});
+      cavity_of_[number] = add(number, {start, "start", {}});
       note_beads(number, cells);
     }
   }
@@ -64,12 +83,12 @@ class CavityFollower {
   void follow(const std::vector<Event>& events) {
     const auto voids = topology_.voids();
     for (const Event& event : events) {
-      if (!TopologyEvents::is_of_void(event.change.kind)) continue;
+      if (!VoidEvents::is_of_void(event.change.kind)) continue;
       const auto ids = event.ids();
       const VoidMoment at{event.frame(), event.picoseconds()};
       switch (event.change.kind) {
         case Topology::void_begin:
-          cavity_of_[ids[0]] = add({at, "begun", beads_from(ids, 1)});
+          cavity_of_[ids[0]] = add(ids[0], {at, "begun", beads_from(ids, 1)});
           break;
         case Topology::void_end:
           end(ids[0], {at, "filled", beads_from(ids, 1)});
@@ -78,7 +97,7 @@ class CavityFollower {
           end(ids[1], {at, "merged", beads_from(ids, 2)});
           break;
         case Topology::void_split:
-          cavity_of_[ids[1]] = add({at, "split", beads_from(ids, 2)});
+          cavity_of_[ids[1]] = add(ids[1], {at, "split", beads_from(ids, 2)});
           break;
         case Topology::void_open:
           open_.emplace(cavity_of_.at(ids[0]), beads_now_[ids[0]]);
@@ -98,13 +117,14 @@ class CavityFollower {
                TopologyAtFrame& at) {
     for (auto& [number, cells] : topology_.complement_cells()) {
       const ComplementMeasures measured = measure_complement(centers, radii, cells);
+      if (!std::isfinite(measured.volume)) throw InputError("the volume of a void is too large for a double");
       double area = 0;
       for (const auto& [bead, of_bead] : measured.areas) area += of_bead;
+      const double volume = std::max(0.0, measured.volume);  // a void that has just closed may be a point
       Cavity& cavity = cavities_[cavity_of_.at(number)];
-      // Two voids may be stretches of one cavity, but not at one time.
-      cavity.samples.push_back({frame, measured.volume, area});
+      cavity.samples.push_back({frame, volume, std::max(0.0, area)});
       cavity.stretches.back().is_seen = true;
-      at.volume += measured.volume;
+      at.volume += volume;
     }
   }
   [[nodiscard]] std::vector<Cavity> take() { return std::move(cavities_); }
@@ -118,8 +138,8 @@ class CavityFollower {
     for (const SimplexBeads& cell : cells) beads.insert(cell.begin(), cell.end());
     return beads;
   }
-  std::size_t add(VoidEnd begin) {
-    cavities_.push_back({{{std::move(begin), {}}}, {}, {}});
+  std::size_t add(Number number, VoidEnd begin) {
+    cavities_.push_back({{{number, std::move(begin), {}}}, {}, {}});
     return cavities_.size() - 1;
   }
   void note_beads(Number number, const std::vector<SimplexBeads>& cells) {
@@ -146,11 +166,11 @@ class CavityFollower {
       best = entry;
     }
     if (best == open_.end()) {
-      cavity_of_[number] = add(std::move(how));
+      cavity_of_[number] = add(number, std::move(how));
       return;
     }
     cavity_of_[number] = best->first;
-    cavities_[best->first].stretches.push_back({std::move(how), {}});
+    cavities_[best->first].stretches.push_back({number, std::move(how), {}});
     open_.erase(best);
   }
 
@@ -187,47 +207,60 @@ void keep_persistent(std::vector<Cavity>& cavities, double persistence, VoidsRep
 
 }  // namespace
 
-VoidsReport follow_voids(const VoidsTask& task, const std::function<void(std::size_t, std::size_t)>& progress,
+VoidsReport follow_voids(const VoidsTask& task, bool keep_zigzag,
+                         const std::function<void(std::size_t, std::size_t)>& progress,
                          const std::function<void(const std::string&)>& warn) {
   VoidsReport report;
-  report.scene = std::make_unique<const Scene>(load_union(task, "kds voids", warn));
+  bool lone_frame = false;
+  report.scene = std::make_unique<const Scene>(load_union(task, "kds voids", warn, &lone_frame));
   const Scene& scene = *report.scene;
+  if (!lone_frame) require_ascending_times(task, scene);
+  const std::size_t steps = lone_frame ? 0 : scene.step_count();
   report.unit = length_unit(task);
   std::vector<double> radii = scene.radii();
   for (double& radius : radii) radius += scene.probe();
 
   KineticRun run(scene, {{"voids"}});
   watch_exact_work(run.simulator(), scene, warn);
-  TopologyEvents heard(report.zigzag);
+  Zigzag zigzag(report.zigzag, keep_zigzag);
+  VoidEvents heard(zigzag);
   run.listen(heard);
   run.build();
+  const auto& topology = run.structure<Topology>(run.structures().size() - 1);
   const auto& complex = run.structure<DualComplex<3>>(run.structures().size() - 2);
+  if (!complex.knows_faces())
+    warn(
+        "all beads of the first frame lie in one plane, where the diagram has no cells: its Betti numbers "
+        "are "
+        "given as 0, and voids are followed from just after it");
   for (int dimension = 0; dimension <= 3; ++dimension)
     for (const SimplexBeads& simplex : complex.simplices(dimension))
-      add_to_zigzag(report.zigzag, true, std::span(simplex).first(static_cast<std::size_t>(dimension) + 1));
-  const auto& topology = run.structure<Topology>(run.structures().size() - 1);
+      zigzag.add(true, std::span(simplex).first(static_cast<std::size_t>(dimension) + 1));
   CavityFollower follower(topology);
   const auto moment = [&](std::size_t frame) {
     const FrameStamp stamp = scene.stamp(frame);
     return VoidMoment{static_cast<double>(stamp.number), stamp.picoseconds};
   };
   const auto at_frame = [&](std::size_t frame) {
-    TopologyAtFrame& at = report.frames.emplace_back(TopologyAtFrame{moment(frame), topology.betti(), 0});
+    TopologyAtFrame& at =
+        report.frames.emplace_back(TopologyAtFrame{moment(frame), topology.betti(), 0, zigzag.lines()});
     follower.measure(frame, scene.centers(frame), radii, at);
-    progress(frame, scene.step_count());
+    progress(frame, steps);
   };
   const auto follow_events = [&] {
+    bool any_of_voids = false;
     for (const Event& event : heard.events) {
       report.tunnels_begun += event.change.kind == Topology::tunnel_begin ? 1 : 0;
       report.tunnels_ended += event.change.kind == Topology::tunnel_end ? 1 : 0;
+      any_of_voids |= event.change.kind >= Topology::void_begin && event.change.kind <= Topology::cell_end;
     }
-    if (!heard.events.empty()) follower.follow(heard.events);
+    if (any_of_voids) follower.follow(heard.events);
     heard.events.clear();
   };
-  report.has_times = moment(0).picoseconds.has_value() && moment(scene.step_count()).picoseconds.has_value();
+  report.has_times = moment(0).picoseconds.has_value() && moment(steps).picoseconds.has_value();
   follower.begin(moment(0));
   at_frame(0);
-  for (std::size_t step = 0; step < scene.step_count(); ++step) {
+  for (std::size_t step = 0; step < steps; ++step) {
     InterruptionCheck::ask();
     run.enter_step();
     do {
@@ -237,9 +270,9 @@ VoidsReport follow_voids(const VoidsTask& task, const std::function<void(std::si
     follow_events();
     at_frame(step + 1);
   }
-  follower.finish(moment(scene.step_count()));
+  follower.finish(moment(steps));
   std::vector<Cavity> cavities = follower.take();
-  keep_persistent(cavities, task.persistence, report);
+  keep_persistent(cavities, lone_frame ? 0 : task.persistence, report);
   return report;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 // Follows the voids of a union of balls through a trajectory for `kds voids`.
 //
-// A void is a part of space that the balls enclose; with a probe, a cavity in which the centre of the probe
-// cannot reach the outside. A void opens when a gate between three balls opens, and may close again later. It
-// is then the same cavity if at least half of the beads around both are common to them (the Jaccard index of
-// the beads when it opened and when it closed). So a cavity has stretches of time in which it is closed, and
-// openings between them.
+// A void is a part of space that the balls enclose. With a probe, the probe's centre cannot leave it. A void
+// opens to the outside when a gate between three balls opens, and may close again later. It is then the same
+// cavity if at least half of the beads around both are common to them (the Jaccard index of the beads when it
+// opened and when it closed). So a cavity has stretches of time in which it is closed, and openings between
+// them. A void that is filled, or merges with another one, does not come back: a void that begins or splits
+// off is a new cavity. Each closing is compared with all cavities that are open.
 
 #include <array>
 #include <cstddef>
@@ -20,6 +21,7 @@
 #include "experiments/surface/union_task.h"
 #include "motions/frames/frame_stamp.h"
 #include "motions/scene/scene.h"
+#include "structures/dual_complex/dual_topology.h"
 
 namespace kds {
 
@@ -41,12 +43,13 @@ struct VoidMoment {
 struct VoidEnd {
   VoidMoment at;
   std::string how;            ///< a word such as "closed"; see docs/formats.md
-  std::vector<BeadId> beads;  ///< of the simplex; empty at the first and the last frame
+  std::vector<BeadId> beads;  ///< of the simplex; empty at the first and the last frame, and if none changed
 };
 
 struct ClosedStretch {
+  DualTopology<3>::Number number = 0;  ///< of the void; the last one if openings are bridged
   VoidEnd begin, end;
-  bool is_seen = false;  ///< whether a frame lies in it
+  bool is_seen = false;  ///< whether a frame that was read lies in it
 
   [[nodiscard]] double length() const { return end.at.clock() - begin.at.clock(); }
 };
@@ -68,6 +71,7 @@ struct TopologyAtFrame {
   VoidMoment at;
   std::array<std::int64_t, 3> betti{};  ///< components, tunnels, voids
   double volume = 0;                    ///< of all voids
+  std::size_t zigzag_lines = 0;         ///< lines of the zigzag up to this frame
 };
 
 struct VoidsReport {
@@ -79,14 +83,14 @@ struct VoidsReport {
   std::vector<ClosedStretch> all;  ///< of all cavities, before openings are bridged
   std::vector<TopologyAtFrame> frames;
   std::uint64_t tunnels_begun = 0, tunnels_ended = 0;
-  /// The complex as a zigzag filtration: a line "i 3 7" inserts the simplex of beads 3 and 7, "d 3 7" deletes
-  /// it. Begins with the simplices of the first frame.
+  /// The complex as a zigzag filtration, if it is kept: a line "i 3 7" inserts the simplex of beads 3 and 7,
+  /// "d 3 7" deletes it. Begins with the simplices of the first frame.
   std::string zigzag;
 };
 
-/// Reads the inputs and follows all voids on one thread. Each warning goes to `warn` as one line. Throws
-/// InputError.
-[[nodiscard]] VoidsReport follow_voids(const VoidsTask& task,
+/// Reads the inputs and follows all voids on one thread. Keeps the zigzag in memory if `keep_zigzag`. Each
+/// warning goes to `warn` as one line. Throws InputError.
+[[nodiscard]] VoidsReport follow_voids(const VoidsTask& task, bool keep_zigzag,
                                        const std::function<void(std::size_t, std::size_t)>& progress,
                                        const std::function<void(const std::string&)>& warn);
 

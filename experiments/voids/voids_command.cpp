@@ -1,22 +1,24 @@
 #include "experiments/voids/voids_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
-#include <ostream>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/output/table.h"
-#include "experiments/output/text.h"
 #include "experiments/program/commands.h"
 #include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
+#include "experiments/program/timing.h"
 #include "experiments/run/page_of_run.h"
 #include "experiments/run/run_options.h"
-#include "motions/base/text_input.h"
 
 namespace kds {
 
@@ -64,16 +66,16 @@ struct CavityRow {
     for (const ClosedStretch& stretch : cavity->stretches) longest = std::max(longest, stretch.length());
     return longest;
   }
-  /// Returns the mean, least or largest volume over the frames in which the cavity is closed.
-  [[nodiscard]] std::optional<double> volume(int which) const {
+  /// Returns the volumes at the frames in which the cavity is closed.
+  [[nodiscard]] std::vector<double> volumes() const {
+    std::vector<double> volumes;
+    for (const VoidSample& sample : cavity->samples) volumes.push_back(sample.volume);
+    return volumes;
+  }
+  /// Returns the median, least or largest of these volumes, or nothing.
+  [[nodiscard]] std::optional<double> volume(double Spread::*which) const {
     if (cavity->samples.empty()) return std::nullopt;
-    double sum = 0, least = cavity->samples[0].volume, most = least;
-    for (const VoidSample& sample : cavity->samples) {
-      sum += sample.volume;
-      least = std::min(least, sample.volume);
-      most = std::max(most, sample.volume);
-    }
-    return which == 0 ? sum / static_cast<double>(cavity->samples.size()) : which < 0 ? least : most;
+    return spread_of(volumes()).*which;
   }
 };
 
@@ -85,12 +87,8 @@ std::vector<CavityRow> rows_of(const VoidsReport& report) {
 
 std::string names_of(const VoidsReport& report, const auto& beads) {
   std::string names;
-  for (const BeadId bead : beads) names += (names.empty() ? "" : " ") + report.scene->bead_name(bead);
+  for (const BeadId bead : beads) names += (names.empty() ? "" : "; ") + report.scene->bead_name(bead);
   return names;
-}
-
-std::string in_unit(const VoidsReport& report, const std::string& quantity, int power) {
-  return report.unit.empty() ? quantity : fmt::format("{} ({}^{})", quantity, report.unit, power);
 }
 
 Table<CavityRow> cavity_columns(const VoidsReport& report) {
@@ -100,10 +98,9 @@ Table<CavityRow> cavity_columns(const VoidsReport& report) {
                          FieldFormat format = plainly) {
     return Column<R>{std::move(key), std::move(heading), std::move(value), std::move(format)};
   };
-  const auto volume = [&](const char* key, const char* heading, int which) {
+  const auto volume = [&](const char* key, const std::string& heading, double Spread::*which) {
     return column(
-        key, in_unit(report, heading, 3), [which](const R& r) { return Field(r.volume(which)); },
-        shortly);
+        key, heading, [which](const R& r) { return Field(r.volume(which)); }, with_figures(4));
   };
   return Table<R>(
       {column("cavity", "cavity", [](const R& r) { return Field(r.number); }),
@@ -119,34 +116,28 @@ Table<CavityRow> cavity_columns(const VoidsReport& report) {
        column(
            "longest", "longest" + unit, [](const R& r) { return Field(r.longest()); }, shortly),
        column("openings", "openings", [](const R& r) { return Field(r.cavity->stretches.size() - 1); }),
-       column("frames", "frames", [](const R& r) { return Field(r.cavity->samples.size()); }),
-       volume("volume_mean", "volume", 0), volume("volume_least", "least", -1),
-       volume("volume_most", "most", 1),
+       column("frames", "in frames", [](const R& r) { return Field(r.cavity->samples.size()); }),
+       volume("volume_median", in_unit("volume", report.unit, 3), &Spread::median),
+       volume("volume_least", "", &Spread::least), volume("volume_most", "most", &Spread::most),
        column("atoms", "atoms", [](const R& r) { return Field(r.cavity->beads.size()); }),
        column("beads", "",
-              [](const R& r) { return Field(fmt::format("{}", fmt::join(r.cavity->beads, " "))); })});
+              [](const R& r) { return Field(fmt::format("{}", fmt::join(r.cavity->beads, " "))); }),
+       column("names", "", [](const R& r) { return Field(names_of(*r.report, r.cavity->beads)); })});
 }
 
 /// How long cavities stay closed without an opening, over all stretches.
 struct Lives {
-  std::size_t stretches = 0, unseen = 0, complete = 0;
-  std::optional<double> median, shortest, longest;  ///< of complete stretches
+  std::size_t unseen = 0;             ///< stretches without a frame
+  std::vector<double> of_complete{};  ///< lengths of the stretches that begin and end within the run
 };
 
 Lives lives_of(const VoidsReport& report) {
   Lives lives;
-  std::vector<double> lengths;
   for (const ClosedStretch& stretch : report.all) {
-    ++lives.stretches;
     lives.unseen += stretch.is_seen ? 0 : 1;
-    if (stretch.begin.how != "start" && stretch.end.how != "last frame") lengths.push_back(stretch.length());
+    if (stretch.begin.how != "start" && stretch.end.how != "last frame")
+      lives.of_complete.push_back(stretch.length());
   }
-  lives.complete = lengths.size();
-  if (lengths.empty()) return lives;
-  std::sort(lengths.begin(), lengths.end());
-  lives.shortest = lengths.front();
-  lives.longest = lengths.back();
-  lives.median = lengths[lengths.size() / 2];
   return lives;
 }
 
@@ -166,9 +157,10 @@ Table<TopologyAtFrame> frame_columns(const VoidsReport& report) {
              betti("b1", "tunnels", 1),
              betti("b2", "voids", 2),
              {.key = "volume",
-              .heading = in_unit(report, "volume of voids", 3),
+              .heading = in_unit("volume of voids", report.unit, 3),
               .value = [](const F& f) { return Field(f.volume); },
-              .format = shortly}});
+              .format = with_figures(4)},
+             {.key = "zigzag_lines", .value = [](const F& f) { return Field(f.zigzag_lines); }}});
   return table;
 }
 
@@ -185,7 +177,8 @@ struct SampleRow {
 
 Table<StretchRow> stretch_columns(const VoidsReport& report) {
   using R = StretchRow;
-  Table<R> table({{.key = "cavity", .value = [](const R& r) { return Field(r.cavity); }}});
+  Table<R> table({{.key = "cavity", .value = [](const R& r) { return Field(r.cavity); }},
+                  {.key = "void", .value = [](const R& r) { return Field(r.stretch->number); }}});
   const auto add_end = [&](const std::string& key, const std::string& how, VoidEnd ClosedStretch::*end) {
     const auto column = [&](const std::string& name, auto value) {
       return Column<R>{.key = name, .value = [=](const R& r) { return Field(value(r.stretch->*end)); }};
@@ -256,34 +249,49 @@ void add_voids(const VoidsReport& report, Json& json) {
   json["short_cavities"] = report.short_ones;
   json["stretches"] = stretch_columns(report).json(stretch_rows(report));
   json["volumes"] = sample_columns().json(sample_rows(report));
-  json["lives"] = {{"all", lives.stretches},
-                   {"in_no_frame", lives.unseen},
-                   {"complete", lives.complete},
-                   {"shortest", Field(lives.shortest).json()},
-                   {"median", Field(lives.median).json()},
-                   {"longest", Field(lives.longest).json()}};
+  Json& of_lives = json["lives"];
+  of_lives["all"] = report.all.size();
+  of_lives["in_no_frame"] = lives.unseen;
+  of_lives["complete"] = lives.of_complete.size();
+  if (!lives.of_complete.empty()) {
+    const Spread spread = spread_of(lives.of_complete);
+    of_lives["shortest"] = spread.least;
+    of_lives["median"] = spread.median;
+    of_lives["longest"] = spread.most;
+  }
   json["tunnels"] = {{"begun", report.tunnels_begun}, {"ended", report.tunnels_ended}};
   json["frames"] = frame_columns(report).json(report.frames);
 }
 
 std::string voids_text(const VoidsReport& report) {
   constexpr std::size_t most_shown = 15;
-  std::vector<CavityRow> rows = rows_of(report);
-  const std::size_t shown = std::min(most_shown, rows.size());
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const CavityRow& a, const CavityRow& b) { return a.closed() > b.closed(); });
   const char* const unit = report.has_times ? "ps" : "frames";
-  std::string text = fmt::format("Cavities, the {} closed longest of {}", shown, rows.size());
-  if (report.short_ones > 0) text += fmt::format(" ({} short ones left out)", report.short_ones);
-  text += ":\n" + cavity_columns(report).text(std::span(rows).first(shown));
+  std::vector<CavityRow> rows = rows_of(report);
+  std::string text;
+  const std::size_t shown = std::min(most_shown, rows.size());
+  if (shown > 0) {
+    std::stable_sort(rows.begin(), rows.end(), [](const CavityRow& a, const CavityRow& b) {
+      const auto rank = [](const CavityRow& row) {
+        return std::pair(row.closed(), row.volume(&Spread::most));
+      };
+      return rank(a) > rank(b);
+    });
+    text = cavity_columns(report).text(std::span(rows).first(shown)) + '\n';
+  }
+  text += fmt::format("Cavities shown: {} of {}, those that are closed longest.\n", shown, rows.size());
+  if (report.short_ones > 0)
+    text += fmt::format("Cavities left out, because no stretch is as long as --persistence: {}.\n",
+                        report.short_ones);
   const Lives lives = lives_of(report);
-  text += fmt::format("\n{} stretches of time in which a cavity is closed; {} of them contain no frame.\n",
-                      lives.stretches, lives.unseen);
-  if (lives.median)
-    text +=
-        fmt::format("{} of them begin and end within the run: median {:.4g} {}, from {:.4g} to {:.4g} {}.\n",
-                    lives.complete, *lives.median, unit, *lives.shortest, *lives.longest, unit);
-  text += fmt::format("{} tunnels began and {} ended.\n", report.tunnels_begun, report.tunnels_ended);
+  text += fmt::format("Stretches of time in which a cavity is closed: {}, of which {} contain no frame.\n",
+                      report.all.size(), lives.unseen);
+  if (!lives.of_complete.empty()) {
+    const Spread spread = spread_of(lives.of_complete);
+    text += fmt::format(
+        "Stretches that begin and end within the run: {}, median {:.4g} {}, from {:.4g} to {:.4g} {}.\n",
+        lives.of_complete.size(), spread.median, unit, spread.least, spread.most, unit);
+  }
+  text += fmt::format("Tunnels: {} began and {} ended.\n", report.tunnels_begun, report.tunnels_ended);
   return text;
 }
 
@@ -296,7 +304,8 @@ int voids_command(const Arguments& arguments) {
   taken.read(task);
   if (options.view) taken.write_page(*options.view, options.destinations);
   command.check_destinations(std::move(taken));
-  const VoidsReport report = follow_voids(task, command.progress(), command.warn());
+  const VoidsReport report =
+      follow_voids(task, options.destinations.out.has_value(), command.progress(), command.warn());
   if (options.view) {
     RunOptions run;
     static_cast<InputOptions&>(run) = task;

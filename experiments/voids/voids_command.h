@@ -1,6 +1,8 @@
 #pragma once
 // The options of `kds voids` and its results as they are written.
 
+#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "experiments/output/output_files.h"
@@ -20,8 +22,9 @@ struct VoidsOptions {
 /// --help. Opens no file.
 [[nodiscard]] VoidsOptions parse_voids_options(const Arguments& arguments);
 
-/// Adds cavities, stretches, lives and the topology at frames.
+/// Adds the results to `json`, as docs/formats.md lists them.
 void add_voids(const VoidsReport& report, Json& json);
+/// Returns what the command prints: the cavities that are closed longest, and how long cavities last.
 [[nodiscard]] std::string voids_text(const VoidsReport& report);
 
 }  // namespace kds

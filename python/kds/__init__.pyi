@@ -278,6 +278,7 @@ class Voids(_Result):
     volumes: Table
     frames: Table
     lives: Dict[str, Any]
+    tunnels: Dict[str, int]
     unit: str
 
 class Trade(_Result):

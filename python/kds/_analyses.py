@@ -256,13 +256,23 @@ class Voids(Result):
         the Betti numbers ``b0``, ``b1``, ``b2`` (components, tunnels, voids) and the volume of all voids at each frame.
     ``lives``
         how many stretches there are, how many contain no frame, and how long they last, a dictionary.
+    ``tunnels``
+        how many tunnels began and ended, a dictionary.
+    ``unit``
+        the unit of lengths. Empty if they have none.
     """
 
+    _columns = {"stretches": ["cavity", "void", *(end + part for end in ("begin_", "end_")
+                                                  for part in ("frame", "picoseconds", "beads", "names")),
+                              "began", "ended", "in_a_frame"],
+                "volumes": ["frame", "cavity", "volume", "area"]}
+
     def __init__(self, found):
-        super().__init__(found)
+        super().__init__({**found, "columns": "cavity,first_closed_frame,last_closed_frame,began,ended,closed,longest,"
+                          "openings,frames,volume_median,volume_least,volume_most,atoms,beads,names"})
         for name in ("stretches", "volumes", "frames"):
-            setattr(self, name, table_of_rows(self.json[name]))
-        self.lives = self.json["lives"]
+            setattr(self, name, table_of_rows(self.json[name], self._columns.get(name, ())))
+        self.lives, self.tunnels = self.json["lives"], self.json["tunnels"]
         self.unit = self.json["unit"]
 
 
@@ -277,8 +287,8 @@ def voids(source, *, verbose=False, **options):
     >>> import numpy as np
     >>> corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * [1, 1.01, 1.02]
     >>> found = kds.voids(np.stack([corners, 1.2 * corners]), radius=1.5)
-    >>> found.frames["b2"], found.rows["ended"]
-    (array([1, 0]), array(['opened'], dtype='<U6'))
+    >>> [int(voids) for voids in found.frames["b2"]], str(found.rows["ended"][0])
+    ([1, 0], 'opened')
     """
     if options.get("radius") is None:
         options["radius"] = "element"

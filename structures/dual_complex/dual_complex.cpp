@@ -127,7 +127,7 @@ void DualComplex<Dimension>::exchanged(std::span<const CellId> gone, std::span<c
     gone_is_small_ = of(simplex).is_small;
   }
   follow(faces_.exchange(gone, made));
-  if (follower_ != nullptr) follower_->exchanged(gone, made, is_flip);
+  if (follower_ != nullptr) follower_->exchanged(gone, made);
 }
 
 template <int Dimension>

@@ -65,7 +65,7 @@ class DualComplex final : public StructureBase, public BeadEdits, private CellFo
   /// plane: 10).
   DualComplex(Simulator& simulator, const MotionRef<Dimension>& motion, PowerDiagram<Dimension>& diagram);
 
-  /// From now on, tells `follower` what changes. It must live until the last change.
+  /// From now on, tells `follower` what changes. `follower` must outlive the last change.
   void set_follower(ComplexFollower* follower) { follower_ = follower; }
   /// The triangulation of the diagram, and the names of its simplices.
   [[nodiscard]] const RegularTriangulation<Dimension>& triangulation() const {
@@ -74,8 +74,8 @@ class DualComplex final : public StructureBase, public BeadEdits, private CellFo
   [[nodiscard]] const TriangulationFaces<Dimension>& faces() const { return faces_; }
   /// Returns whether a live simplex belongs to the complex.
   [[nodiscard]] bool has(SimplexName simplex) const { return of(simplex).belongs; }
-  /// Returns whether `faces` and `has` describe the present complex. They do not while the triangulation has
-  /// no cells, where the complex is empty, and in a replay.
+  /// Returns whether `faces` and `has` describe the present complex. Returns false in a replay, and while the
+  /// triangulation has no cells; the complex is then empty.
   [[nodiscard]] bool knows_faces() const { return diagram_.is_solid() && !replayed_ && !must_read_all_; }
   /// Returns the simplices of the complex of this dimension, each with its beads ascending, in lexicographic
   /// order. Takes time m log m for m simplices.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
+#include <string_view>
 
 namespace kds {
 
@@ -32,7 +33,8 @@ constexpr std::array<EventKind, 14> topology_kinds{{{"component_begin", true, fa
                                                     {"tunnel_begin", true, false, tunnel_roles},
                                                     {"tunnel_end", true, false, tunnel_roles}}};
 
-/// Returns the first simplex of this dimension that `suits`, or the first one of the dimension, or null.
+/// Returns the first simplex of this dimension that `suits`. If none does, returns the first one of the
+/// dimension, or null.
 template <class Suits>
 const DimensionAndBeads* find_simplex(std::span<const DimensionAndBeads> among, int dimension, Suits suits) {
   const DimensionAndBeads* found = nullptr;
@@ -44,13 +46,31 @@ const DimensionAndBeads* find_simplex(std::span<const DimensionAndBeads> among, 
   return found;
 }
 
+/// Returns whether an edge that ends was a side of a triangle whose other sides stay in the complex, so that
+/// its ends stay joined. Returns false if more than 32 simplices end.
+bool has_way_around(std::span<const DimensionAndBeads> ends, const SimplexBeads& edge) {
+  constexpr std::size_t few = 32;
+  if (ends.size() > few) return false;
+  const auto ends_too = [&](BeadId a, BeadId b) {
+    const DimensionAndBeads side{1, {std::min(a, b), std::max(a, b), no_bead, no_bead}};
+    return std::find(ends.begin(), ends.end(), side) != ends.end();
+  };
+  return std::any_of(ends.begin(), ends.end(), [&](const DimensionAndBeads& simplex) {
+    const auto& [dimension, beads] = simplex;
+    if (dimension != 2 || !std::includes(beads.begin(), beads.begin() + 3, edge.begin(), edge.begin() + 2))
+      return false;
+    const BeadId third = beads[0] != edge[0] ? beads[0] : beads[1] != edge[1] ? beads[1] : beads[2];
+    return !ends_too(edge[0], third) && !ends_too(edge[1], third);
+  });
+}
+
 bool are(std::array<Components::Number, 2> numbers, Components::Number a, Components::Number b) {
   return std::minmax(numbers[0], numbers[1]) == std::minmax(a, b);
 }
 
 }  // namespace
 
-/// The beads and edges of the complex.
+/// Graph whose nodes are the beads of the complex and whose arcs are its edges.
 template <int Dimension>
 class DualTopology<Dimension>::ComponentGraph {
  public:
@@ -71,7 +91,7 @@ class DualTopology<Dimension>::ComponentGraph {
   const DualComplex<Dimension>& complex_;
 };
 
-/// The cells and facets that are not in the complex.
+/// Graph of the cells outside the complex, which facets outside the complex join.
 template <int Dimension>
 class DualTopology<Dimension>::VoidGraph {
  public:
@@ -96,7 +116,7 @@ class DualTopology<Dimension>::VoidGraph {
     std::sort(beads.begin(), beads.end());
     return beads;
   }
-  /// Returns whether a live cell is not in the complex.
+  /// Returns whether a live cell is a node: infinite, or outside the complex.
   [[nodiscard]] bool has(CellId cell) const { return is_outer(cell) || !complex_.has({Dimension, cell}); }
 
  private:
@@ -212,36 +232,55 @@ void DualTopology<Dimension>::build() {
 }
 
 template <int Dimension>
-void DualTopology<Dimension>::exchanged(std::span<const CellId> gone, std::span<const CellId> made,
-                                        bool is_flip) {
-  Number heir = Components::none;
-  for (const CellId cell : gone) {
-    if (const Number number = voids_.of(cell); is_flip && number != Components::outside)
-      heir = std::min(heir, number);
-    voids_.forget(cell);
-  }
+auto DualTopology<Dimension>::void_or_heir(CellId cell) const -> Number {
+  const Number number = voids_.of(cell);
+  return number == Components::none && cell < heir_of_.size() ? heir_of_[cell] : number;
+}
+
+template <int Dimension>
+void DualTopology<Dimension>::name_heirs(std::span<const CellId> made, const BeadsOfVoids& beads_of) {
+  made_.insert(made_.end(), made.begin(), made.end());
+  heir_of_.resize(std::max(heir_of_.size(), complex_.triangulation().cells().size()), Components::none);
   for (const CellId cell : made) {
-    made_.push_back(cell);
-    if (cell >= heir_of_.size()) heir_of_.resize(cell + std::size_t{1}, Components::none);
-    heir_of_[cell] = heir;
+    heir_of_[cell] = Components::none;
+    const auto& vertices = complex_.triangulation().cells()[cell].vertex;
+    for (const auto& [number, beads] : beads_of)
+      if (std::all_of(vertices.begin(), vertices.end(), [&](BeadId b) { return beads.contains(b); })) {
+        heir_of_[cell] = number;
+        break;
+      }
   }
 }
 
 template <int Dimension>
+void DualTopology<Dimension>::exchanged(std::span<const CellId> gone, std::span<const CellId> made) {
+  BeadsOfVoids beads_of;
+  for (const CellId cell : gone) {
+    const Number number = void_or_heir(cell);
+    voids_.forget(cell);
+    if (number == Components::none || number == Components::outside) continue;
+    const auto before = void_cells_.find(cell);
+    if (before != void_cells_.end()) beads_of[number].insert(before->second.begin(), before->second.end());
+  }
+  if (beads_of.size() == 1)  // all beads that the new cells may have
+    for (const CellId cell : made)
+      beads_of.begin()->second.insert(complex_.triangulation().cells()[cell].vertex.begin(),
+                                      complex_.triangulation().cells()[cell].vertex.end());
+  name_heirs(made, beads_of);
+}
+
+template <int Dimension>
 void DualTopology<Dimension>::replaced_all() {
-  std::map<SimplexBeads, Number> void_of;
+  BeadsOfVoids beads_of;
   for (const auto& [cell, beads] : void_cells_)
-    if (const Number number = voids_.of(cell); number != Components::none) void_of[beads] = number;
+    if (const Number number = void_or_heir(cell); number != Components::none)
+      beads_of[number].insert(beads.begin(), beads.end());
   voids_.forget_all();
   made_.clear();
-  heir_of_.assign(complex_.triangulation().cells().size(), Components::none);
-  for (CellId cell = 0; cell < heir_of_.size(); ++cell) {
-    if (!complex_.triangulation().is_live(cell)) continue;
-    made_.push_back(cell);
-    if (!complex_.faces().is_live({Dimension, cell})) continue;
-    const auto found = void_of.find(complex_.faces().beads_of({Dimension, cell}));
-    if (found != void_of.end()) heir_of_[cell] = found->second;
-  }
+  std::vector<CellId> made;
+  for (CellId cell = 0; cell < complex_.triangulation().cells().size(); ++cell)
+    if (complex_.triangulation().is_live(cell)) made.push_back(cell);
+  name_heirs(made, beads_of);
 }
 
 template <int Dimension>
@@ -269,7 +308,7 @@ void DualTopology<Dimension>::follow_components(const ComplexChange& change) {
   std::vector<Components::Join> joins;
   for (const auto& [dimension, beads] : change.ends) {
     if (dimension == 0) components_.forget(beads[0]);
-    if (dimension == 1) cut.insert(cut.end(), {beads[0], beads[1]});
+    if (dimension == 1 && !has_way_around(change.ends, beads)) cut.insert(cut.end(), {beads[0], beads[1]});
   }
   for (std::uint32_t i = 0; i < change.begins.size(); ++i) {
     const auto& [dimension, beads] = change.begins[i];
@@ -385,7 +424,7 @@ void DualTopology<Dimension>::follow_void_cells(std::span<const CellId> added) {
   report_all(cell_begin, begins);
 }
 
-/// Reports that the number of tunnels has changed. The simplices that have no event yet are preferred.
+/// Reports that the number of tunnels has changed. Prefers simplices that have no event yet.
 template <int Dimension>
 void DualTopology<Dimension>::report_tunnels(const ComplexChange& change, std::int64_t more) {
   const auto fits = [&](const DimensionAndBeads& simplex, bool begins) {

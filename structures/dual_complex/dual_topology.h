@@ -5,13 +5,17 @@
 //
 // A void is a bounded component of the complement of the union. In the triangulation, it is a set of cells
 // outside the complex that are joined by facets outside the complex and are not joined to the infinite cells.
-// The Betti numbers are b0, the number of components; b2 (in the plane b1), the number of voids; and
-// b1 = b0 + b2 - (Euler characteristic), the number of tunnels (Delfinado and Edelsbrunner, "An incremental
-// algorithm for Betti numbers of simplicial complexes on the 3-sphere", 1995). Tunnels have no numbers.
+// The Betti number b0 is the number of components. In space, b2 is the number of voids and
+// b1 = b0 + b2 - (Euler characteristic) the number of tunnels (Delfinado and Edelsbrunner, "An incremental
+// algorithm for Betti numbers of simplicial complexes on the 3-sphere", 1995). In the plane, b1 is the number
+// of voids. Tunnels have no numbers. While the first frame has no cells, all Betti numbers are 0.
 //
 // A simplex that begins or ends alone is critical: it changes one Betti number. Simplices that begin or end
 // together with a face (collapses) and flips change no topology. If several critical simplices change at one
-// time, only the result of all has events, and the simplex that an event names is one of them.
+// time, only the result of all has events, and an event may name any simplex of its dimension that changes
+// then.
+//
+// A time at which the complex changes takes time linear in the cells of all voids, besides the searches.
 
 #include <array>
 #include <cstddef>
@@ -51,7 +55,7 @@ class DualTopology final : public StructureBase, public BeadEdits, private Compl
     void_open,        ///< number of a void that is joined to the outside; the facet that ends
     void_close,       ///< number of a new void that was part of the outside; the facet that begins
     cell_begin,       ///< internal. A void's number; a cell of the triangulation that is part of a void now
-    cell_end,         ///< internal. A cell that is part of a void no longer
+    cell_end,         ///< internal. 0; a cell that is part of a void no longer
     tunnel_begin,     ///< the edge that begins or the triangle that ends; in space only
     tunnel_end        ///< the triangle that begins or the edge that ends; in space only
   };
@@ -98,7 +102,7 @@ class DualTopology final : public StructureBase, public BeadEdits, private Compl
 
   void release(std::span<const BeadId>) override {}
   void take_up(std::span<const BeadId>) override {}
-  void exchanged(std::span<const CellId> gone, std::span<const CellId> made, bool is_flip) override;
+  void exchanged(std::span<const CellId> gone, std::span<const CellId> made) override;
   void replaced_all() override;
   void settled(const ComplexChange& change) override;
 
@@ -108,6 +112,11 @@ class DualTopology final : public StructureBase, public BeadEdits, private Compl
   [[nodiscard]] std::int64_t euler_of_complex() const;
   [[nodiscard]] std::int64_t tunnels() const;
   void cut_around(CellId cell);
+  using BeadsOfVoids = std::map<Number, std::set<BeadId>>;
+  /// Takes up new cells. A cell is an heir of the first void that has had all of its beads.
+  void name_heirs(std::span<const CellId> made, const BeadsOfVoids& beads_of);
+  /// Returns the void of a cell or of the cells that it has replaced at the present time.
+  [[nodiscard]] Number void_or_heir(CellId cell) const;
   void report(Kind kind, std::initializer_list<Number> numbers, const DimensionAndBeads* simplex);
   void report_tunnels(const ComplexChange& change, std::int64_t more);
 
@@ -119,7 +128,7 @@ class DualTopology final : public StructureBase, public BeadEdits, private Compl
   std::optional<Replayed> replayed_;
   // The members below collect changes of cells until the complex is up to date.
   std::vector<CellId> made_, cut_;
-  std::vector<Number> heir_of_;  // for each cell in made_: the void of the cells that it replaces, or none
+  std::vector<Number> heir_of_;  // for each cell in made_: the void that it may continue, or none
   std::vector<const DimensionAndBeads*> reported_;  // simplices that have events
 };
 

@@ -1,11 +1,15 @@
 #pragma once
 // Connected components of a graph that changes, each with a number that it keeps while it exists.
 //
-// If components merge, the merged one has the smallest of their numbers. If a component splits, its largest
-// part keeps the number (of equal parts, the part with the first node in the caller's order), and the others
-// get new numbers. Numbers are not used again. After an arc is removed, its ends are searched in lockstep:
-// the search takes time linear in the smaller of the parts, or in the way from one end to the other (Even and
-// Shiloach, "An on-line edge-deletion problem", 1981).
+// If components merge, the merged one has the smallest of their numbers. If a component splits, the part with
+// the most nodes keeps the number (of equal parts, the part with the first node in the caller's order), and
+// the others get new numbers; the outside keeps 0 whatever its size. Numbers are not used again. In one
+// update, merges come before splits.
+//
+// After an arc is removed, its ends are searched in lockstep (Even and Shiloach, "An on-line edge-deletion
+// problem", 1981). If the ends lie in different parts, the search takes time linear in the smaller part, or
+// in the larger one if the outside is the smaller. If the ends are still joined, it takes time linear in the
+// nodes that are found before the searches meet, at most all of the component.
 
 #include <algorithm>
 #include <cstddef>
@@ -34,7 +38,7 @@ class FollowedComponents {
   static constexpr std::uint32_t by_no_arc = std::numeric_limits<std::uint32_t>::max();
   struct Merge {
     Number kept, gone;
-    std::uint32_t by;  ///< of the join; by_no_arc if new nodes joined the components
+    std::uint32_t by;  ///< the join's number; by_no_arc if new nodes joined the components
   };
   struct Split {
     Number from, made;
@@ -49,7 +53,7 @@ class FollowedComponents {
     Number number;
     Node last;  ///< its last node, which was forgotten
   };
-  /// What update() did, in this order.
+  /// Changes made by update(), in the order in which they are to be applied.
   struct Changes {
     std::vector<Merge> merges;
     std::vector<Split> splits;
@@ -68,7 +72,7 @@ class FollowedComponents {
   }
   /// Returns the number of components, without the outside.
   [[nodiscard]] std::int64_t count() const { return count_; }
-  /// Removes all nodes, but keeps the numbers in use for heirs.
+  /// Removes all nodes. Their numbers stay valid as heirs in the next update.
   void forget_all() {
     for (Node node = 0; node < number_.size(); ++node) forget(node);
   }
@@ -195,7 +199,9 @@ class FollowedComponents {
       found_by_[node] = front;
     };
     for (std::uint32_t front = 0; front < fronts.size(); ++front) find(front, ends[front]);
+    /// Joins two fronts and returns the one that has all nodes, the larger of both.
     const auto join = [&](std::uint32_t front, std::uint32_t other) {
+      if (fronts[front].nodes.size() < fronts[other].nodes.size()) std::swap(front, other);
       Front& from = fronts[other];
       for (const Node node : from.nodes) found_by_[node] = front;
       fronts[front].nodes.insert(fronts[front].nodes.end(), from.nodes.begin(), from.nodes.end());
@@ -204,6 +210,7 @@ class FollowedComponents {
                                  from.queue.end());
       fronts[front].has_outer |= from.has_outer;
       from = {};
+      return front;
     };
     const auto must_go_on = [&] {
       std::size_t open = 0, largest_open = 0, largest_complete = 0;
@@ -222,9 +229,10 @@ class FollowedComponents {
       for (std::uint32_t front = 0; front < fronts.size(); ++front) {
         if (fronts[front].is_complete()) continue;
         const Node node = fronts[front].queue[fronts[front].next++];
+        std::uint32_t own = front;
         graph.for_neighbours(node, [&](Node other) {
-          if (found_by_[other] == none) return find(front, other);
-          if (found_by_[other] != front) join(front, found_by_[other]);
+          if (found_by_[other] == none) return find(own, other);
+          if (found_by_[other] != own) own = join(own, found_by_[other]);
         });
       }
     for (const Front& front : fronts)

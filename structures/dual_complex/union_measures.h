@@ -8,10 +8,10 @@
 // biomolecular solvation", Combinatorial and Computational Geometry, 2005). Areas of two caps on a sphere
 // follow from the theorem of Gauss and Bonnet. docs/dual_complex.md has the formulas.
 //
-// The complex says which terms are summed; the terms are doubles. Results deviate by less than 1e-9 of the
-// sphere or ball of the bead (a contact: of the disc of the smaller ball), for ratios of radii up to 1e5. The
-// terms of nearly flat simplices, and of balls whose radii differ by more than a factor of 100, are computed
-// with rational numbers before square roots and angles.
+// The complex says which terms are summed; the terms are doubles. In tests, results deviate by less than 1e-9
+// of the sphere or ball of the bead (a contact: of the disc of the smaller ball), for ratios of radii up to
+// 1e5. The terms of nearly flat simplices, and of balls whose radii differ by more than a factor of 100, are
+// computed with rational numbers before square roots and angles.
 //
 // Degenerate positions: a flat simplex in the complex means that the radical planes of its beads share a line
 // or are equal. Each point of that line serves as the centre of a flat tetrahedron, and the sums are the
@@ -65,9 +65,9 @@ struct ComplementMeasures {
 
 /// Measures what is outside the union in these tetrahedra, such as all tetrahedra of a void (J. Liang et al.,
 /// "Analytical shape computation of macromolecules II", Proteins 33, 1998). The result describes the
-/// complement only if the tetrahedra are all of a component of the complement of the complex; the parts of
-/// single tetrahedra may be negative. The volume deviates by less than 1e-9 of all balls that touch the
-/// tetrahedra. Throws like measure_union.
+/// complement only if the tetrahedra are all those of one component of the complement of the complex; the
+/// parts of single tetrahedra may be negative. The volume deviates by less than 1e-9 of all balls that touch
+/// the tetrahedra. Throws like measure_union.
 [[nodiscard]] ComplementMeasures measure_complement(const Eigen::Matrix3Xd& centers,
                                                     std::span<const double> radii,
                                                     std::span<const ComplementCell> cells);

@@ -135,7 +135,7 @@ const std::vector<LawStructure>& law_structures() {
       {"boxes", {.directions = 7}, Edits::beads, true, fault_of_boxes},
       {"power", {}, Edits::beads, false, fault_of_power},
       {"dual", {}, Edits::beads, false, fault_of_dual, 40, 16},
-      {"voids", {}, Edits::beads, false, fault_of_topology, 10, 16},
+      {"voids", {}, Edits::beads, false, fault_of_topology, 40, 16},
       {"contacts", {}, Edits::beads, true, fault_of_contacts},
       {"crossings", {}, Edits::none},
   };

@@ -164,8 +164,9 @@ class Manual(unittest.TestCase):
         except Exception as error:
             self.skipTest(f"the examples need matplotlib and pandas ({error})")
         matplotlib.use("svg")
-        files = [ROOT / "data" / "trajectories" / f"villin_hp36_300K{end}" for end in (".dcd", ".pdb")]
-        names = self.run_blocks("dual_complex.md", 5, *((file, file.name) for file in files))
+        files = [ROOT / "data" / "trajectories" / name for name in ("villin_hp36_300K.dcd", "villin_hp36_300K.pdb",
+                                                                    "dhodh363_1000K_first20.dcd", "dhodh363_1000K.pdb")]
+        names = self.run_blocks("dual_complex.md", 6, *((file, file.name) for file in files))
         run, lines = names["run"], list(names["zigzag"](names["run"]))
         now = {}  # simplices, each with the number of those of one bead more that contain it
         for line in lines:

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -123,7 +126,7 @@ TEST(Voids, ThatNoFrameShowsAreCounted) {
   const ProgramRun run = run_program({"voids", file, "--radius", "1.5"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out,
-              HasSubstr("1 stretches of time in which a cavity is closed; 1 of them contain no frame."));
+              HasSubstr("Stretches of time in which a cavity is closed: 1, of which 1 contain no frame."));
 }
 
 TEST(Voids, AreWrittenToFilesAndAPage) {
@@ -136,6 +139,50 @@ TEST(Voids, AreWrittenToFilesAndAPage) {
   for (const char* name : {"voids.json", "voids.csv", "stretches.csv", "volumes.csv", "frames.csv",
                            "zigzag.txt", "report.html", "view.html"})
     EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(out) / name)) << name;
+}
+
+TEST(Voids, TheZigzagLeadsToTheLastFrame) {
+  const ScratchDirectory directory;
+  const std::string file = directory.file("cube.xyz", cube({2, 2.5, 2.2}));
+  const std::string out = directory / "out";
+  ASSERT_EQ(run_program({"voids", file, "--radius", "1.5", "--out", out, "--quiet"}).code, 0);
+  std::ifstream zigzag(std::filesystem::path(out) / "zigzag.txt");
+  std::set<std::set<int>> complex;
+  for (std::string line; std::getline(zigzag, line);) {
+    std::istringstream words(line.substr(2));
+    std::set<int> simplex;
+    for (int bead; words >> bead;) simplex.insert(bead);
+    EXPECT_TRUE(line[0] == 'i' ? complex.insert(simplex).second : complex.erase(simplex) == 1) << line;
+  }
+  int euler = 0;
+  for (const std::set<int>& simplex : complex) euler += simplex.size() % 2 == 1 ? 1 : -1;
+  // At edge 2.2, faces are open: the surface of the cube without its six faces is a sphere with six holes.
+  EXPECT_EQ(euler, 2 - 6);
+  EXPECT_EQ(complex.size(), 8U + 12U);
+}
+
+TEST(Voids, OfASingleFrameAreThoseOfThisFrame) {
+  const Json json = Cube().json({2});
+  EXPECT_EQ(json["frames"].size(), 1U);
+  EXPECT_EQ(json["frames"][0]["b2"], 1);
+  ASSERT_EQ(json["rows"].size(), 1U);
+  EXPECT_NEAR(json["rows"][0]["volume_median"].get<double>(), outside_of_balls(), 2e-4);
+}
+
+TEST(Voids, NeedTimesThatAdvance) {
+  const ScratchDirectory directory;
+  std::string text;
+  for (const int time : {10, 8}) {
+    text += fmt::format("cube t= {}\n    8\n", time);
+    for (int corner = 0; corner < 8; ++corner)
+      text += fmt::format("    1AAA     C{:5}{:8.3f}{:8.3f}{:8.3f}\n", corner + 1, 0.2 * (corner & 1),
+                          0.2 * (corner >> 1 & 1), 0.2 * (corner >> 2 & 1));
+    text += "   0 0 0\n";
+  }
+  const ProgramRun run =
+      run_program({"voids", directory.file("back.gro", text), "--radius", "1.5", "--select", "all"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_THAT(run.err, HasSubstr("the time does not advance"));
 }
 
 TEST(Voids, RefusePlanarScenes) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "certificates/exact/exact_time.h"
+#include "kds/event_log.h"
 #include "motions/curves/bezier_motion.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "tests/structures/dual_complex/gudhi_betti.h"
@@ -24,7 +25,7 @@ namespace {
 using testing::ElementsAre;
 using Topology = DualTopology<3>;
 
-/// The topology of moving balls of equal radii, with its simulator and the structures below it.
+/// The topology of moving balls, with its simulator and the structures below it.
 struct FollowedBalls {
   explicit FollowedBalls(const BezierMotion<3, 1>& m, AuditMode audits = AuditMode::events)
       : motion(m), simulator(audits) {
@@ -62,8 +63,7 @@ BezierMotion<3, 1> balls_between(const std::vector<Point>& from, const std::vect
   return motion;
 }
 
-/// FollowedBalls on a sphere, at the corners of an icosahedron. The corners are moved a little, so that no
-/// four lie in one plane.
+/// Returns the corners of an icosahedron, moved a little so that no four lie in one plane.
 std::vector<Point> cage(double size) {
   const double golden = 1.61803398875;
   std::vector<Point> corners;
@@ -122,7 +122,7 @@ TEST(DualTopology, HasTheBettiNumbersOfGudhiAfterEveryEvent) {
   std::mt19937 random(static_cast<std::uint32_t>(from_environment("KDS_DUAL_SEED", 20261130)));
   std::array<std::uint64_t, Topology::tunnel_end + 1> seen{};
   for (std::size_t round = 0; round < rounds(6, 1) * from_environment("KDS_DUAL_ROUNDS", 1); ++round) {
-    // FollowedBalls near a sphere, so that there are tunnels and voids.
+    // Balls near a sphere enclose tunnels and voids.
     BezierMotion<3, 1> motion(12 + random() % 12);
     for (BeadId b = 0; b < motion.bead_count(); ++b) {
       const double radius = 300 + static_cast<double>(random() % 150);
@@ -165,6 +165,35 @@ TEST(DualTopology, HasTheBettiNumbersOfGudhiAfterEveryEvent) {
       seen[kind] += balls.events(static_cast<Topology::Kind>(kind));
   }
   EXPECT_THAT(seen, testing::Each(testing::Gt(0U)));
+}
+
+TEST(DualTopology, NamesASimplexAtEachEventWhereBeadsTie) {
+  // Beads on a coarse grid, so that cells tie, and cells are exchanged that are no flips.
+  std::mt19937 random(33);
+  std::uint64_t voids = 0;
+  for (int round = 0; round < rounds(12, 2); ++round) {
+    const std::size_t beads = 10 + random() % 5;
+    std::vector<Point> from(beads), to(beads);
+    for (auto* points : {&from, &to})
+      for (Point& p : *points)
+        for (double& x : p) x = static_cast<double>(random() % 4);
+    FollowedBalls balls(balls_between(from, to, 0.9));
+    EventLog log;
+    balls.simulator.listen(log);
+    balls.simulator.run_step();
+    for (const Event& event : log.events) {
+      if (event.structure != "voids" || !event.kind.external) continue;
+      const bool names_two = event.change.kind == Topology::component_merge ||
+                             event.change.kind == Topology::component_split ||
+                             event.change.kind == Topology::void_merge ||
+                             event.change.kind == Topology::void_split;
+      const bool is_tunnel = event.change.kind >= Topology::tunnel_begin;
+      EXPECT_GT(event.change.size, is_tunnel ? 0 : names_two ? 2 : 1) << event.kind.name << ", round " << round;
+      voids += event.change.kind >= Topology::void_begin && event.change.kind <= Topology::void_close ? 1 : 0;
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(voids, 0U);
 }
 
 }  // namespace
