@@ -1,8 +1,11 @@
 import assert from "node:assert/strict";
 import test from "node:test";
+import { colourOfKind } from "../src/replay/colours.js";
 import { EventFilter } from "../src/replay/event_filter.js";
 import { noBead } from "../src/replay/events.js";
 import { beadText, eventSentence, rangeText, sideText, textOf } from "../src/replay/event_sentence.js";
+import { explainKind } from "../src/replay/explain.js";
+import { RunState } from "../src/replay/run_state.js";
 import { boxesOf } from "../src/replay/boxes.js";
 import { loadRun } from "./load_run.mjs";
 import { sampleRun } from "./sample_run.mjs";
@@ -61,6 +64,14 @@ test("each structure has sentences that mark what comes and goes", () => {
     ["dual", "vertex_end", { simplex: [3] }, [], [3]],
     ["dual", "edge_begin", { simplex: [3, 5] }, [3, 5], []],
     ["dual", "tetrahedron_end", { simplex: [1, 2, 3, 5] }, [], [1, 2, 3, 5]],
+    ["voids", "component_end", { component: [4], simplex: [3] }, [], [3]],
+    ["voids", "component_merge", { components: [0, 4], simplex: [3, 5] }, [3, 5], []],
+    ["voids", "component_split", { components: [0, 4] }, [], []],
+    ["voids", "void_begin", { void: [12], simplex: [1, 2, 3, 5] }, [], []],
+    ["voids", "void_split", { voids: [2, 12], simplex: [1, 2, 3] }, [], []],
+    ["voids", "tunnel_begin", { simplex: [3, 5] }, [3, 5], []],
+    ["voids", "tunnel_begin", { simplex: [1, 2, 3] }, [], [1, 2, 3]],
+    ["voids", "tunnel_end", { simplex: [3, 5] }, [], [3, 5]],
     ["contacts", "begin", { first: [1], second: [5] }, [1, 5], []],
     ["contacts", "end", { first: [1], second: [5] }, [], [1, 5]],
     ["crossings", "cross_plus", { first: [1, 2], second: [5, 6] }, [], []],
@@ -82,6 +93,27 @@ test("each structure has sentences that mark what comes and goes", () => {
   }
   assert.equal(sideText(3, 3), "high y");
   assert.equal(sideText(6, 3), "low oblique (direction 4)");
+});
+
+test("events of voids name the void and its gate, have colours of their own, and find the cells of the void", () => {
+  const text = (kind, ids) => textOf(sentence("voids", kind, ids).parts, null, false);
+  assert.equal(text("void_open", { void: [12], simplex: [3, 7, 9] }),
+    "Void 12 opens to the outside through the gate of bead 3, bead 7 and bead 9.");
+  assert.equal(text("void_merge", { voids: [2, 12] }), "Void 12 joins void 2.");
+  assert.equal(text("tunnel_end", { simplex: [3, 7, 9] }), "A tunnel ends as the triangle of bead 3, bead 7 and bead 9 fills it.");
+  const kinds = ["void_begin", "void_end", "void_merge", "void_split", "void_open", "void_close", "cell_begin", "cell_end"];
+  const colours = new Set(kinds.map((kind, k) => colourOfKind("voids", kind, k)));
+  for (const kind of ["tunnel_begin", "tunnel_end", "component_merge", "component_split"])
+    assert.ok(explainKind("voids", kind) && !colours.has(colourOfKind("voids", kind, 0)), kind);
+  const made = [["void_close", 7, 1, 2, 3], ["cell_end", 0, 1, 2, 3, 4], ["cell_begin", 7, 1, 2, 3, 5],
+    ["cell_begin", 8, 1, 2, 3, 6]];
+  const events = {
+    count: 4, order: [5, 6, 7, 8], kindOf: (e) => ({ name: made[e][0] }), idsOf: (e) => Uint32Array.from(made[e].slice(1)),
+  };
+  const cells = (change) => RunState.prototype.cellsOfVoid.call({ structures: [{ events }] }, 0, 0, change);
+  assert.deepEqual(["cell_begin", "cell_end"].map(cells), [[1, 2, 3, 5], [1, 2, 3, 4]]);
+  events.order[2] = 9;  // of another time
+  assert.deepEqual(cells("cell_begin"), []);
 });
 
 test("switched off and internal events are neither stepped to nor counted", () => {

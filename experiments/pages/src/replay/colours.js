@@ -17,6 +17,13 @@ const themes = {
   },
 };
 
+// Places of kinds of events in a list of 8 colours. Components, tunnels and voids share no colour.
+const placesOfVoids = {
+  component_begin: 7, component_split: 7, component_end: 6, component_merge: 6, tunnel_begin: 1, tunnel_end: 4,
+  void_begin: 2, void_split: 2, cell_begin: 2, void_end: 3, void_merge: 3, cell_end: 3, void_open: 5, void_close: 0,
+};
+export const colourOfKind = (structure, kind, k) => (structure === "voids" ? placesOfVoids[kind] : undefined) ?? k % 8;
+
 export const theme = (name) => themes[name];
 
 // Returns the colour at t in 0..1 along the chain, [r, g, b] up to 255. Its dark end is lighter on dark pages.

@@ -3,6 +3,7 @@ import { noBead } from "./events.js";
 import { explainKind, namedParts } from "./explain.js";
 
 const axisNames = ["x", "y", "z"];
+const shapes = ["vertex", "edge", "triangle", "tetrahedron"];
 
 // Returns {parts, enters, leaves}. `parts` are texts and beads, {bead, mark}; a mark is "enters", "leaves" or "". `names`
 // may be null. `changes` are those of RunState.changesOf.
@@ -42,6 +43,27 @@ export function eventSentence({ structure, kind, roles, changes, nodes, names, d
       const verb = ids.simplex.length > 1 ? "form" : begins ? "becomes" : "is";
       const says = ` ${verb} ${shape === "edge" ? "an" : "a"} ${shape} of the dual complex${begins ? "" : " no more"}`;
       return [...list(ids.simplex, begins ? enters : leaves), says];
+    },
+    voids: () => {
+      const [first, second] = roles[0].ids;
+      const shape = shapes[(ids.simplex?.length ?? 0) - 1];
+      const at = (before, mark, ...after) => (ids.simplex ? [before, ...list(ids.simplex, mark), ...after] : []);
+      const [begins, ends] = shape === "edge"
+        ? [[enters, " closes a ring"], [leaves, " breaks a ring"]] : [[leaves, " opens"], [enters, " fills it"]];
+      return {
+        component_begin: [`component ${first} begins`, ...at(" with ", enters)],
+        component_end: [`component ${first} ends`, ...at(" with ", leaves)],
+        component_merge: [`component ${second} joins component ${first}`, ...at(" by the edge of ", enters)],
+        component_split: [`component ${second} splits off from component ${first}`, ...at(" as the edge of ", leaves, " ends")],
+        void_begin: [`void ${first} begins`, ...at(` within the ${shape} of `)],
+        void_end: [`void ${first} ends`, ...at(` within the ${shape} of `)],
+        void_merge: [`void ${second} joins void ${first}`, ...at(" through the gate of ")],
+        void_split: [`void ${second} splits off from void ${first}`, ...at(" at the gate of ")],
+        void_open: [`void ${first} opens to the outside`, ...at(" through the gate of ")],
+        void_close: [`void ${first} is cut off from the outside`, ...at(" at the gate of ")],
+        tunnel_begin: ["a tunnel begins", ...at(` as the ${shape} of `, ...begins)],
+        tunnel_end: ["a tunnel ends", ...at(` as the ${shape} of `, ...ends)],
+      }[kind];
     },
     contacts: {
       begin: () => [enters(ids.first[0]), " and ", enters(ids.second[0]), " come into contact"],

@@ -1,5 +1,6 @@
 // The panels of the chosen event and of the chosen bead.
 import { byId, count, make } from "../shared/dom.js";
+import { colourOfKind } from "./colours.js";
 import { noBead } from "./events.js";
 import { eventSentence, rangeText, sideText, textOf } from "./event_sentence.js";
 import { decimals, dyadic, exactText, explainKind, lowerText, residueOf, timeText, trim, upperText } from "./explain.js";
@@ -110,7 +111,7 @@ export class Panels {
     const [nth, all] = [filter.placeOf(s, e), filter.counted(s)].map((number) => number.toLocaleString("en"));
     const ordinal = kind.external ? `Event ${nth} of ${all} of ${name}.` : "An internal event, which is not counted.";
     place.replaceChildren(
-      make("h3", {}, make("span", { class: `chip c${events.kind[e] % 8}` }, `${name}: ${kind.name}`)),
+      make("h3", {}, make("span", { class: `chip c${colourOfKind(name, kind.name, events.kind[e])}` }, `${name}: ${kind.name}`)),
       make("p", {}, explainKind(name, kind.name)),
       table(rows),
       make("p", { class: "soft" }, ordinal),
@@ -124,11 +125,10 @@ export class Panels {
     if (!state.chosen) return this.hasChosen ? [] : ["Press Next event to see a structure change."];
     this.hasChosen = true;
     const { parts } = this.present;
-    if (typeof parts[0] === "string") return [textOf(parts, names, this.several)];
     const signs = { enters: ["comes", "◆ "], leaves: ["goes", "✕ "] };
     return parts.map((part, k) => {
-      if (typeof part === "string") return part;
       const text = textOf(k === 0 ? [part] : ["", part], names, this.several);
+      if (typeof part === "string") return text;
       const [name, sign] = signs[part.mark] ?? ["", ""];
       return make("span", { class: name }, sign + text);
     });

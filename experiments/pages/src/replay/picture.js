@@ -7,6 +7,7 @@ const flashSeconds = 0.5;
 const mostFlashes = 8;  // of each structure: more would cover the scene
 const flashingCage = 0.5;
 const simplexLayers = new Set(["edges", "contacts", "hull", "closest", "links", "triangles", "tetrahedra", "voids"]);
+const cellChanges = { void_begin: "cell_begin", void_close: "cell_begin", void_end: "cell_end", void_open: "cell_end" };
 
 export class Picture {
   constructor(app) {
@@ -64,14 +65,21 @@ export class Picture {
     const faces = [];
     const cages = [...this.cages, ...this.app.structures.spheres()];
     const { goes, comes, glow, chosen } = scene.colours;
+    const markFaces = (packed, arity, colour, alpha) => {
+      const { words, tetrahedra } = facesOf([{ packed, arity }]);
+      faces.push({ words, colour, alphas: tetrahedra.map((count) => (count === 2 ? 0.1 : 0.4) * alpha) });
+    };
     const markEvent = (s, e, alpha) => {
+      const { name: structure, events } = state.structures[s];
+      const change = structure === "voids" ? cellChanges[events.kindOf(e).name] : null;
+      if (change)
+        markFaces(state.cellsOfVoid(s, e, change), this.app.meta.dimension + 1, change === "cell_begin" ? comes : goes, alpha);
       for (const { name, arity, removed, added } of state.changesOf(s, e)) {
         if (simplexLayers.has(name)) {
           for (const [words, colour, dashed] of [[removed, goes, true], [added, comes, false]]) {
             for (let at = 0; at < words.length; at += arity)
               for (const pair of pairsOf(words.subarray(at, at + arity))) marks.push({ pair, colour, dashed, alpha });
-            const sides = facesOf([{ packed: words, arity }]);
-            faces.push({ words: sides.words, colour, alphas: sides.tetrahedra.map(() => 0.4 * alpha) });
+            markFaces(words, arity, colour, alpha);
           }
         } else if (name === "cages" && added.length) {
           const basis = [...added.subarray(1, arity)].filter((bead) => bead !== noBead);
@@ -81,7 +89,7 @@ export class Picture {
       }
       const { enters, leaves } = this.app.panels.sentenceOf(s, e);
       const marked = [...enters, ...leaves];
-      const others = [...state.structures[s].events.beadsOf(e)].filter((bead) => !marked.includes(bead));
+      const others = [...events.beadsOf(e)].filter((bead) => !marked.includes(bead));
       for (const bead of others) rings.push({ bead, colour: glow, alpha });
       for (const bead of leaves) rings.push({ bead, colour: goes, alpha, shape: "cross" });
       for (const bead of enters) rings.push({ bead, colour: comes, alpha, shape: "diamond" });

@@ -126,6 +126,17 @@ export class RunState {
     return events.step[e] === this.step && events.u[e] === this.u;
   }
 
+  // Returns the cells that a void gains (`change` is "cell_begin") or loses ("cell_end") with its event, as words. Internal
+  // events right after the event name these cells: cell_begin with the number of the void, cell_end with 0.
+  cellsOfVoid(s, e, change) {
+    const { events } = this.structures[s];
+    const number = change === "cell_begin" ? events.idsOf(e)[0] : 0;
+    const cells = [];
+    for (let k = e + 1; k < events.count && events.order[k] - events.order[e] === k - e; ++k)
+      if (events.kindOf(k).name === change && events.idsOf(k)[0] === number) cells.push(...events.idsOf(k).subarray(1));
+    return cells;
+  }
+
   // Returns the elements that an event removes and adds in the layers of its structure: [{name, arity, removed, added}].
   changesOf(s, e) {
     return this.structures[s].layers.flatMap((layer) =>

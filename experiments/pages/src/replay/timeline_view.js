@@ -1,7 +1,7 @@
 // Draws the timeline: axis, a row of events for each structure, and the contact intervals of each pair.
 import { byId, count, make } from "../shared/dom.js";
 import { categories } from "../shared/palette.js";
-import { theme } from "./colours.js";
+import { colourOfKind, theme } from "./colours.js";
 import { countWhile } from "./events.js";
 import { explainKind, explainStructure, timeUnit } from "./explain.js";
 import { listenToTimeline } from "./timeline_input.js";
@@ -81,7 +81,8 @@ export class TimelineView {
           },
         });
         const title = `Show and step to ${kind.name}: ${explainKind(structure.name, kind.name)}`;
-        const chip = make("label", { class: `chip c${k % 8}`, title }, on, `${kind.name} ${total.toLocaleString("en")}`);
+        const colour = `c${colourOfKind(structure.name, kind.name, k)}`;
+        const chip = make("label", { class: `chip ${colour}`, title }, on, `${kind.name} ${total.toLocaleString("en")}`);
         this.chips.push({ s, k, chip, on });
         return [chip];
       });
@@ -247,7 +248,8 @@ export class TimelineView {
 
   drawRow({ s, canvas }) {
     const context = this.context(canvas, rowHeight);
-    const { events } = this.state.structures[s];
+    const { name, events } = this.state.structures[s];
+    const colours = events.kinds.map((kind, k) => this.categories[colourOfKind(name, kind.name, k)]);
     const layout = layoutEvents(events, this.filter.lists[s], this.window);
     context.fillStyle = this.colours.grid;
     context.fillRect(0, base, this.width, 1);
@@ -259,7 +261,7 @@ export class TimelineView {
     }
     if (layout.single) {
       for (const { x, kind } of layout.marks) {
-        context.fillStyle = this.categories[kind % 8];
+        context.fillStyle = colours[kind];
         context.fillRect(x - 1, 8, 2, base - 8);
         context.beginPath();
         context.arc(x, 7, 3.5, 0, 2 * Math.PI);
@@ -272,7 +274,7 @@ export class TimelineView {
       counts.forEach((number, kind) => {
         if (!number) return;
         const height = Math.max(0.7, (number / layout.most) * (base - 12));
-        context.fillStyle = this.categories[kind % 8];
+        context.fillStyle = colours[kind];
         context.fillRect(x, y - height, binWidth - 0.6, height);
         y -= height;
       });
