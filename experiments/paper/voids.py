@@ -20,7 +20,7 @@ def missed(found, stride):
     """Returns the shares of closed stretches and of changes of the number of tunnels that every stride-th frame misses."""
     begin, end = found.stretches["begin_frame"], found.stretches["end_frame"]
     seen = np.floor(end / stride) * stride >= begin
-    changes = found.json["tunnels"]["begun"] + found.json["tunnels"]["ended"]
+    changes = sum(found.tunnels.values())
     shown = np.abs(np.diff(found.frames["b1"][::stride].astype(int))).sum()
     return 1 - seen.mean(), 1 - shown / changes
 
@@ -29,12 +29,13 @@ report = Report(__doc__)
 rows = []
 for name, (file, topology) in INPUTS.items():
     files = report.data / "trajectories"
-    found = kds.voids(files / file, **({"topology": files / topology} if topology else {}), **({"stop": 100} if report.short else {}))
+    options = {"topology": files / topology} if topology else {}
+    found = kds.voids(files / file, **options, **({"stop": 100} if report.short else {}))
     complete = (found.stretches["began"] != "start") & (found.stretches["ended"] != "last frame")
     lengths = (found.stretches["end_frame"] - found.stretches["begin_frame"])[complete]
     row = {"trajectory": name, "steps": len(found.frames) - 1, "stretches": len(found.stretches),
            "complete": int(complete.sum()), "median_life": float(np.median(lengths)) if len(lengths) else None,
-           "tunnel_changes": found.json["tunnels"]["begun"] + found.json["tunnels"]["ended"]}
+           "tunnel_changes": sum(found.tunnels.values())}
     for stride in STRIDES:
         row[f"stretches_missed_{stride}"], row[f"tunnels_missed_{stride}"] = map(float, missed(found, stride))
     rows.append(row)

@@ -95,7 +95,11 @@ class FollowedComponents {
   template <class Graph>
   [[nodiscard]] const Changes& update(const Graph& graph, std::vector<Node> added,
                                       std::span<const Join> joins, std::vector<Node> cut) {
-    changes_ = {};
+    changes_.merges.clear();
+    changes_.splits.clear();
+    changes_.ended.clear();
+    changes_.born.clear();
+    changes_.added.clear();
     std::sort(added.begin(), added.end(), [&](Node a, Node b) { return graph.is_before(a, b); });
     for (const Node node : added) add(graph, node);
     for (const Join& join : joins) {

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <set>
-#include <sstream>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -107,12 +107,14 @@ TEST(Voids, OpenAndCloseAtKnownTimes) {
 }
 
 TEST(Voids, ShortOpeningsAreBridgedAndShortCavitiesLeftOut) {
-  const double open = 2 * (1 - (opens_at - 2) / 0.5);  // frames
-  const Json bridged = Cube().json({2, 2.5, 2}, {"--persistence", fmt::format("{}", open + 0.01)});
+  const double open = 2 * (1 - (opens_at - 2) / 0.5);      // frames
+  const std::vector<double> edges{2, 2, 2, 2.5, 2, 2, 2};  // both stretches are longer than the opening
+  const Json bridged = Cube().json(edges, {"--persistence", fmt::format("{}", open + 0.01)});
   ASSERT_EQ(bridged["stretches"].size(), 1U);
   EXPECT_EQ(bridged["rows"][0]["openings"], 0);
   EXPECT_EQ(bridged["lives"]["all"], 2);  // before they are bridged
-  const Json open_once = Cube().json({2, 2.5, 2}, {"--persistence", fmt::format("{}", open - 0.01)});
+  const Json open_once = Cube().json(edges, {"--persistence", fmt::format("{}", open - 0.01)});
+  ASSERT_EQ(open_once["rows"].size(), 1U);
   EXPECT_EQ(open_once["rows"][0]["openings"], 1);
   const Json none = Cube().json({2, 2.5}, {"--persistence", "0.5"});
   EXPECT_EQ(none["rows"].size(), 0U);
