@@ -86,7 +86,7 @@ class Stubs(unittest.TestCase):
         self.assertEqual(set(kds.__all__) - set(self.functions) - set(self.classes), set())
         for name, node in self.functions.items():
             self.assert_same(node, getattr(kds, name), name)
-        for name in ("Run", "KineticRun", "Structure", "Contacts", "Surface", "KineticAnalysis"):
+        for name in ("Run", "KineticRun", "Structure", "Contacts", "Surface", "Voids", "KineticAnalysis"):
             for node in self.classes[name].body if hasattr(kds, name) else ():
                 if isinstance(node, ast.FunctionDef) and (node.name == "__init__" or not node.name.startswith("__")):
                     member = inspect.getattr_static(getattr(kds, name), node.name)
@@ -98,7 +98,7 @@ class Stubs(unittest.TestCase):
         missing = {"frames", "format", "out", "replace", "paper", "json", "quiet", "help", "view", "dump", "events", "log", "times"}
         for name, command, but in (("run", "run", {"rounds"}), ("contacts", "contacts", set()), ("compare", "compare", set()),
                                    ("update", "update", set()), ("collide", "collide", set()), ("trade", "trade", set()),
-                                   ("surface", "surface", set()),
+                                   ("surface", "surface", set()), ("voids", "voids", set()),
                                    ("conditions", "info", {"beads"}), ("stream", "run", {"rounds"}), ("KineticRun", "run", {"rounds"})):
             help = "".join(subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=True).stdout
                            for words in ([command, "--help"], ["help", "inputs"]))

@@ -275,6 +275,7 @@ class Interrupts(unittest.TestCase):
             "update": lambda: kds.update(self.positions, radius=1),
             "collide": lambda: kds.collide(self.positions, radius=1, method="all"),
             "surface": lambda: kds.surface(self.positions, radius=1),
+            "voids": lambda: kds.voids(self.positions, radius=1),
             "conditions": lambda: kds.conditions(self.positions, radius=1),
             "generate": lambda: kds.generate("random-chain", beads=20000, frames=2000),
             "exact": lambda: kds.run(self.positions, radius=1, structures=["power"], kernel="exact", threads=1),

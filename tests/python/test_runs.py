@@ -691,5 +691,24 @@ class Surfaces(unittest.TestCase):
         self.assertEqual(found.unit, "angstrom")
 
 
+class CavitiesOfVoids(unittest.TestCase):
+    def test_they_equal_the_program(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            found = kds.voids(DCD, topology=PDB, stop=60)
+        json = program("voids", DCD, "--topology", PDB, "--frames", "0:60")
+        for name in ("rows", "stretches", "volumes", "frames", "lives", "tunnels"):
+            self.assertEqual(found.json[name], json[name], name)
+        self.assertGreater(len(found.rows), 0)
+        self.assertEqual(len(found.stretches), found.lives["all"])
+        self.assertEqual(found.tunnels, json["tunnels"])
+
+    def test_tables_without_rows_have_columns(self):
+        found = kds.voids(np.array([[[0.0, 0, 0], [6, 0, 0], [0, 6, 0], [0, 0, 6]]] * 2), radius=1)
+        self.assertEqual(len(found.rows), 0)
+        for rows, column in ((found.rows, "volume_most"), (found.stretches, "end_names"), (found.volumes, "area")):
+            self.assertEqual(len(rows[column]), 0)
+
+
 if __name__ == "__main__":
     unittest.main()
