@@ -17,12 +17,12 @@ INPUTS = {"villin": ("villin_hp36_300K.dcd", "villin_hp36_300K.pdb"),
 
 
 def missed(found, stride):
-    """Returns the shares of closed stretches and of changes of the number of tunnels that every stride-th frame misses."""
-    begin, end = found.stretches["begin_frame"], found.stretches["end_frame"]
-    seen = np.floor(end / stride) * stride >= begin
+    """Returns the shares of closed stretches and of changes of the number of tunnels that every stride-th frame misses, or
+    None if there are none."""
+    seen = [one["end_frame"] // stride * stride >= one["begin_frame"] for one in found.json["stretches"]]
     changes = sum(found.tunnels.values())
-    shown = np.abs(np.diff(found.frames["b1"][::stride].astype(int))).sum()
-    return 1 - seen.mean(), 1 - shown / changes
+    shown = np.abs(np.diff(np.asarray(found.frames["b1"])[::stride].astype(int))).sum()
+    return 1 - sum(seen) / len(seen) if seen else None, 1 - float(shown) / changes if changes else None
 
 
 report = Report(__doc__)
@@ -30,14 +30,14 @@ rows = []
 for name, (file, topology) in INPUTS.items():
     files = report.data / "trajectories"
     options = {"topology": files / topology} if topology else {}
-    found = kds.voids(files / file, **options, **({"stop": 100} if report.short else {}))
-    complete = (found.stretches["began"] != "start") & (found.stretches["ended"] != "last frame")
-    lengths = (found.stretches["end_frame"] - found.stretches["begin_frame"])[complete]
+    found = kds.voids(files / file, **options, **({"stop": 20} if report.short else {}))
+    lengths = [one["end_frame"] - one["begin_frame"] for one in found.json["stretches"]
+               if one["began"] != "start" and one["ended"] != "last frame"]
     row = {"trajectory": name, "steps": len(found.frames) - 1, "stretches": len(found.stretches),
-           "complete": int(complete.sum()), "median_life": float(np.median(lengths)) if len(lengths) else None,
+           "complete": len(lengths), "median_life": float(np.median(lengths)) if lengths else None,
            "tunnel_changes": sum(found.tunnels.values())}
     for stride in STRIDES:
-        row[f"stretches_missed_{stride}"], row[f"tunnels_missed_{stride}"] = map(float, missed(found, stride))
+        row[f"stretches_missed_{stride}"], row[f"tunnels_missed_{stride}"] = missed(found, stride)
     rows.append(row)
 report.results["rows"] = rows
 report.show([key.replace("_", " ") for key in rows[0]], [list(row.values()) for row in rows])
