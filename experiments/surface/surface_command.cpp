@@ -22,17 +22,18 @@ namespace kds {
 
 namespace {
 
-constexpr CommandSpec kSurfaceCommand{"kds surface",
-                                      "Measures the accessible area and the volume of the union of balls, by "
-                                      "atom, residue and chain, and the contact areas "
-                                      "of its atoms. The formulas are exact; the numbers are doubles. By "
-                                      "default all atoms are balls with their van der Waals "
-                                      "radii (--select all, --radius element).",
-                                      {},
-                                      {},
-                                      "kds surface 1a4y.pdb --chain A,B --select heavy --out areas\n"
-                                      "kds surface villin.dcd --topology villin.pdb --frames ::10 --json -\n"
-                                      "kds surface villin.dcd --topology villin.pdb --at 0,12.5,13"};
+constexpr CommandSpec kSurfaceCommand{
+    "kds surface",
+    "Measures the accessible area and the volume of the union of balls, by "
+    "atom, residue and chain, and the contact areas "
+    "of its atoms. The formulas are exact; the numbers are doubles. By "
+    "default all atoms are balls with their van der Waals "
+    "radii (--select all, --radius element); --select '//*/*' adds ligands and water.",
+    {},
+    {},
+    "kds surface 1a4y.pdb --chain A,B --select heavy --out areas\n"
+    "kds surface villin.dcd --topology villin.pdb --frames ::10 --json -\n"
+    "kds surface villin.dcd --topology villin.pdb --at 0,12.5,13"};
 
 const OptionList<SurfaceTask>& surface_task_options() {
   using O = SurfaceTask;
@@ -42,7 +43,7 @@ const OptionList<SurfaceTask>& surface_task_options() {
           .with({list_option({"--at", "LIST",
                               "times to measure, counted in frames that are read, from 0: 2.5 is halfway "
                               "from frame 2 to "
-                              "frame 3 (default: all frames)"},
+                              "frame 3; results are in ascending order (default: all frames)"},
                              &O::times,
                              [](const std::string& text) {
                                return parse_reals("--at", text, {0, 1e15});

@@ -16,6 +16,7 @@
 #include "motions/base/interruption.h"
 #include "structures/dual_complex/dual_topology.h"
 #include "structures/dual_complex/union_measures.h"
+#include "structures/dual_complex/zigzag_persistence.h"
 #include "structures/session/kinetic_run.h"
 
 namespace kds {
@@ -25,22 +26,54 @@ namespace {
 using Topology = DualTopology<3>;
 using Number = Topology::Number;
 
-/// The complex as a zigzag filtration, and its lines.
+/// The complex as a zigzag filtration: its lines and, if they are asked for, the lives of tunnels.
 class Zigzag {
  public:
-  Zigzag(std::string& text, bool keep) : text_(text), keep_(keep) {}
+  Zigzag(std::string* text, bool with_tunnels) : text_(text), with_tunnels_(with_tunnels) {}
 
-  void add(bool inserts, std::span<const BeadId> beads) {
+  void add(bool inserts, std::span<const BeadId> beads, VoidEnd at) {
     ++lines_;
-    if (keep_)
-      fmt::format_to(std::back_inserter(text_), "{} {}\n", inserts ? 'i' : 'd', fmt::join(beads, " "));
+    if (text_ != nullptr)
+      fmt::format_to(std::back_inserter(*text_), "{} {}\n", inserts ? 'i' : 'd', fmt::join(beads, " "));
+    if (!with_tunnels_) return;
+    SimplexBeads simplex;
+    simplex.fill(no_bead);
+    std::copy(beads.begin(), beads.end(), simplex.begin());
+    persistence_.add(inserts, simplex);
+    ends_.push_back(std::move(at));
+    times_.push_back(time_);
   }
+  /// Called when time goes on.
+  void end_time() { ++time_; }
   [[nodiscard]] std::size_t lines() const { return lines_; }
+  /// Returns the tunnels that last at least `persistence`. `last` is the end of those that last until the
+  /// end.
+  [[nodiscard]] std::vector<ClosedStretch> tunnels(double persistence, const VoidEnd& last,
+                                                   const std::vector<TopologyAtFrame>& frames) const {
+    std::vector<ZigzagPersistence::Interval> intervals = persistence_.intervals(1);
+    std::sort(intervals.begin(), intervals.end(),
+              [](const auto& a, const auto& b) { return a.begin < b.begin; });
+    std::vector<ClosedStretch> tunnels;
+    for (const auto& interval : intervals) {
+      const bool lasts = interval.end >= lines_;
+      ClosedStretch tunnel{0, ends_[interval.begin], lasts ? last : ends_[interval.end]};
+      if (!lasts && times_[interval.begin] == times_[interval.end]) continue;
+      tunnel.is_seen = std::any_of(frames.begin(), frames.end(), [&](const TopologyAtFrame& frame) {
+        return frame.zigzag_lines > interval.begin && frame.zigzag_lines <= interval.end;
+      });
+      if (tunnel.length() >= persistence) tunnels.push_back(std::move(tunnel));
+    }
+    return tunnels;
+  }
 
  private:
-  std::string& text_;
-  bool keep_;
+  std::string* text_;
+  bool with_tunnels_;
   std::size_t lines_ = 0;
+  ZigzagPersistence persistence_;
+  std::vector<VoidEnd> ends_;       // the time and the simplex of each line
+  std::vector<std::size_t> times_;  // the number of the time of each line
+  std::size_t time_ = 0;
 };
 
 /// Keeps the events of voids until they are handled, and writes those of the complex.
@@ -52,7 +85,10 @@ class VoidEvents final : public EventListener {
     if (event.structure == "voids") events.push_back(event);
     if (event.structure == "dual") {
       const int dimension = event.change.size - 1;
-      zigzag_.add(event.change.kind == DualComplex<3>::begins(dimension), event.ids());
+      const bool begins = event.change.kind == DualComplex<3>::begins(dimension);
+      const VoidMoment at{event.frame(), event.picoseconds()};
+      zigzag_.add(begins, event.ids(),
+                  {at, begins ? "begin" : "end", {event.ids().begin(), event.ids().end()}});
     }
   }
   [[nodiscard]] bool prints_time_of(const Event& event) const override {
@@ -222,7 +258,7 @@ VoidsReport follow_voids(const VoidsTask& task, bool keep_zigzag,
 
   KineticRun run(scene, {{"voids"}});
   watch_exact_work(run.simulator(), scene, warn);
-  Zigzag zigzag(report.zigzag, keep_zigzag);
+  Zigzag zigzag(keep_zigzag ? &report.zigzag : nullptr, task.tunnels);
   VoidEvents heard(zigzag);
   run.listen(heard);
   run.build();
@@ -233,14 +269,15 @@ VoidsReport follow_voids(const VoidsTask& task, bool keep_zigzag,
         "all beads of the first frame lie in one plane, where the diagram has no cells: its Betti numbers "
         "are "
         "given as 0, and voids are followed from just after it");
-  for (int dimension = 0; dimension <= 3; ++dimension)
-    for (const SimplexBeads& simplex : complex.simplices(dimension))
-      zigzag.add(true, std::span(simplex).first(static_cast<std::size_t>(dimension) + 1));
   CavityFollower follower(topology);
   const auto moment = [&](std::size_t frame) {
     const FrameStamp stamp = scene.stamp(frame);
     return VoidMoment{static_cast<double>(stamp.number), stamp.picoseconds};
   };
+  for (int dimension = 0; dimension <= 3; ++dimension)
+    for (const SimplexBeads& simplex : complex.simplices(dimension))
+      zigzag.add(true, std::span(simplex).first(static_cast<std::size_t>(dimension) + 1),
+                 {moment(0), "start", {}});
   const auto at_frame = [&](std::size_t frame) {
     TopologyAtFrame& at =
         report.frames.emplace_back(TopologyAtFrame{moment(frame), topology.betti(), 0, zigzag.lines()});
@@ -256,6 +293,7 @@ VoidsReport follow_voids(const VoidsTask& task, bool keep_zigzag,
     }
     if (any_of_voids) follower.follow(heard.events);
     heard.events.clear();
+    zigzag.end_time();
   };
   report.has_times = moment(0).picoseconds.has_value() && moment(steps).picoseconds.has_value();
   follower.begin(moment(0));
@@ -272,7 +310,10 @@ VoidsReport follow_voids(const VoidsTask& task, bool keep_zigzag,
   }
   follower.finish(moment(steps));
   std::vector<Cavity> cavities = follower.take();
-  keep_persistent(cavities, lone_frame ? 0 : task.persistence, report);
+  const double persistence = lone_frame ? 0 : task.persistence;
+  keep_persistent(cavities, persistence, report);
+  if (task.tunnels)
+    report.tunnels = zigzag.tunnels(persistence, {moment(steps), "last frame", {}}, report.frames);
   return report;
 }
 

@@ -29,6 +29,7 @@ struct VoidsTask : UnionTask {
   /// --persistence, in picoseconds if the frames have times, otherwise in frames. Shorter openings are
   /// bridged, and cavities without a longer stretch are not listed.
   double persistence = 0;
+  bool tunnels = false;  ///< --tunnels: find how long each tunnel lasts
 };
 
 struct VoidMoment {
@@ -39,7 +40,7 @@ struct VoidMoment {
   [[nodiscard]] double clock() const { return picoseconds.value_or(frame); }
 };
 
-/// An end of a closed stretch: when and how it came about, and by which simplex.
+/// An end of a closed stretch or of a tunnel: when and how it came about, and by which simplex.
 struct VoidEnd {
   VoidMoment at;
   std::string how;            ///< a word such as "closed"; see docs/formats.md
@@ -47,7 +48,8 @@ struct VoidEnd {
 };
 
 struct ClosedStretch {
-  DualTopology<3>::Number number = 0;  ///< of the void; the last one if openings are bridged
+  /// Number of the void; the last one if openings are bridged. 0 for a tunnel.
+  DualTopology<3>::Number number = 0;
   VoidEnd begin, end;
   bool is_seen = false;  ///< whether a frame that was read lies in it
 
@@ -83,6 +85,9 @@ struct VoidsReport {
   std::vector<ClosedStretch> all;  ///< of all cavities, before openings are bridged
   std::vector<TopologyAtFrame> frames;
   std::uint64_t tunnels_begun = 0, tunnels_ended = 0;
+  /// The lives of tunnels by zigzag persistence, in the order of their begins, if the task asks for them;
+  /// short ones left out.
+  std::vector<ClosedStretch> tunnels;
   /// The complex as a zigzag filtration, if it is kept: a line "i 3 7" inserts the simplex of beads 3 and 7,
   /// "d 3 7" deletes it. Begins with the simplices of the first frame.
   std::string zigzag;

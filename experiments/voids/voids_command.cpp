@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,8 +29,9 @@ constexpr CommandSpec kVoidsCommand{
     "kds voids",
     "Follows the voids of the union of balls: cavities that no probe can leave. Gives the times at which "
     "each one is closed, exactly for the paths between frames, the gate through which it opens, its atoms, "
-    "and its volume at frames. By default all atoms are balls with their van der Waals radii (--select all, "
-    "--radius element).",
+    "and its volume at frames. By default all atoms of the chains are balls with their van der Waals radii "
+    "(--select all, "
+    "--radius element); --select '//*/*' adds ligands and water.",
     {},
     {},
     "kds voids dhodh.dcd --topology dhodh.pdb --persistence 0.1 --out voids\n"
@@ -40,11 +42,15 @@ const OptionList<VoidsTask>& voids_task_options() {
   static const auto list =
       OptionList<O>()
           .with(union_options())
-          .with({real_option(
-              {"--persistence", "TIME",
-               "bridge openings shorter than this, and leave out cavities that are never closed for so long; "
-               "in picoseconds if the frames have times, otherwise in frames (default: 0)"},
-              &O::persistence, {0, 1e12})});
+          .with({real_option({"--persistence", "TIME",
+                              "bridge openings shorter than this, and leave out cavities that are never "
+                              "closed for so long; "
+                              "in picoseconds if the frames have times, otherwise in frames (default: 0)"},
+                             &O::persistence, {0, 1e12}),
+                 flag_option("--tunnels",
+                             "also find how long each tunnel lasts, by zigzag persistence. Keeps all events "
+                             "in memory (default: tunnels are counted)",
+                             &O::tunnels)});
   return list;
 }
 
@@ -164,9 +170,9 @@ Table<TopologyAtFrame> frame_columns(const VoidsReport& report) {
   return table;
 }
 
-/// A closed stretch of a cavity, or a cavity at a frame in which it is closed.
+/// A closed stretch of a cavity or the life of a tunnel, or a cavity at a frame in which it is closed.
 struct StretchRow {
-  std::size_t cavity;
+  std::size_t number;  ///< of the cavity or tunnel
   const ClosedStretch* stretch;
 };
 struct SampleRow {
@@ -175,10 +181,12 @@ struct SampleRow {
   const VoidSample* sample;
 };
 
-Table<StretchRow> stretch_columns(const VoidsReport& report) {
+/// `of` is "cavity" or "tunnel".
+Table<StretchRow> stretch_columns(const VoidsReport& report, const char* of) {
   using R = StretchRow;
-  Table<R> table({{.key = "cavity", .value = [](const R& r) { return Field(r.cavity); }},
-                  {.key = "void", .value = [](const R& r) { return Field(r.stretch->number); }}});
+  Table<R> table({{.key = of, .value = [](const R& r) { return Field(r.number); }}});
+  if (of == std::string_view("cavity"))
+    table.add({{.key = "void", .value = [](const R& r) { return Field(r.stretch->number); }}});
   const auto add_end = [&](const std::string& key, const std::string& how, VoidEnd ClosedStretch::*end) {
     const auto column = [&](const std::string& name, auto value) {
       return Column<R>{.key = name, .value = [=](const R& r) { return Field(value(r.stretch->*end)); }};
@@ -200,6 +208,12 @@ std::vector<StretchRow> stretch_rows(const VoidsReport& report) {
   std::vector<StretchRow> rows;
   for (std::size_t cavity = 0; cavity < report.cavities.size(); ++cavity)
     for (const ClosedStretch& stretch : report.cavities[cavity].stretches) rows.push_back({cavity, &stretch});
+  return rows;
+}
+
+std::vector<StretchRow> tunnel_rows(const VoidsReport& report) {
+  std::vector<StretchRow> rows;
+  for (const ClosedStretch& tunnel : report.tunnels) rows.push_back({rows.size(), &tunnel});
   return rows;
 }
 
@@ -227,10 +241,12 @@ VoidsOptions parse_voids_options(const Arguments& arguments) {
   static const auto list =
       OptionList<O>()
           .with(&O::task, voids_task_options())
-          .with(&O::destinations,
-                destination_options("write voids.json, voids.csv, stretches.csv, volumes.csv, frames.csv, "
-                                    "zigzag.txt (all simplices as a zigzag filtration) and report.html to "
-                                    "DIR (default: none)"))
+          .with(
+              &O::destinations,
+              destination_options("write voids.json, voids.csv, stretches.csv, volumes.csv, frames.csv, "
+                                  "zigzag.txt (all simplices as a zigzag filtration), report.html and, with "
+                                  "--tunnels, tunnels.csv to "
+                                  "DIR (default: none)"))
           .with({view_option(&O::view,
                              "run once more, and write a page that shows the complex and its voids in a "
                              "browser to FILE (default: none)")});
@@ -247,7 +263,7 @@ void add_voids(const VoidsReport& report, Json& json) {
   json["clock"] = report.has_times ? "ps" : "frames";
   json["rows"] = cavity_columns(report).json(rows_of(report));
   json["short_cavities"] = report.short_ones;
-  json["stretches"] = stretch_columns(report).json(stretch_rows(report));
+  json["stretches"] = stretch_columns(report, "cavity").json(stretch_rows(report));
   json["volumes"] = sample_columns().json(sample_rows(report));
   Json& of_lives = json["lives"];
   of_lives["all"] = report.all.size();
@@ -260,6 +276,7 @@ void add_voids(const VoidsReport& report, Json& json) {
     of_lives["longest"] = spread.most;
   }
   json["tunnels"] = {{"begun", report.tunnels_begun}, {"ended", report.tunnels_ended}};
+  json["lives_of_tunnels"] = stretch_columns(report, "tunnel").json(tunnel_rows(report));
   json["frames"] = frame_columns(report).json(report.frames);
 }
 
@@ -292,6 +309,16 @@ std::string voids_text(const VoidsReport& report) {
         lives.of_complete.size(), spread.median, unit, spread.least, spread.most, unit);
   }
   text += fmt::format("Tunnels: {} began and {} ended.\n", report.tunnels_begun, report.tunnels_ended);
+  if (!report.tunnels.empty()) {
+    std::vector<double> lengths;
+    for (const ClosedStretch& tunnel : report.tunnels) lengths.push_back(tunnel.length());
+    const Spread spread = spread_of(lengths);
+    text +=
+        fmt::format("Lives of {} tunnels: median {:.4g} {}, from {:.4g} to {:.4g} {}; {} contain no frame.\n",
+                    lengths.size(), spread.median, unit, spread.least, spread.most, unit,
+                    std::count_if(report.tunnels.begin(), report.tunnels.end(),
+                                  [](const ClosedStretch& tunnel) { return !tunnel.is_seen; }));
+  }
   return text;
 }
 
@@ -320,11 +347,13 @@ int voids_command(const Arguments& arguments) {
   json["settings"] = voids_task_options().settings_json(task);
   add_voids(report, json);
   json["warnings"] = command.warnings();
-  const TableCommand::Csvs csvs{{"voids.csv", cavity_columns(report).csv(rows_of(report))},
-                                {"stretches.csv", stretch_columns(report).csv(stretch_rows(report))},
-                                {"volumes.csv", sample_columns().csv(sample_rows(report))},
-                                {"frames.csv", frame_columns(report).csv(report.frames)},
-                                {"zigzag.txt", report.zigzag}};
+  TableCommand::Csvs csvs{{"voids.csv", cavity_columns(report).csv(rows_of(report))},
+                          {"stretches.csv", stretch_columns(report, "cavity").csv(stretch_rows(report))},
+                          {"volumes.csv", sample_columns().csv(sample_rows(report))},
+                          {"frames.csv", frame_columns(report).csv(report.frames)},
+                          {"zigzag.txt", report.zigzag}};
+  if (task.tunnels)
+    csvs.emplace_back("tunnels.csv", stretch_columns(report, "tunnel").csv(tunnel_rows(report)));
   command.deliver(json, csvs, voids_text(report));
   return 0;
 }

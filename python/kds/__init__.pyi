@@ -117,6 +117,7 @@ class _Voids(_Input, total=False):
     probe: Optional[float]
     motion: Optional[str]
     persistence: Optional[float]
+    tunnels: bool
 
 class _Trade(_Input, total=False):
     want: Optional[Names]
@@ -279,6 +280,7 @@ class Voids(_Result):
     frames: Table
     lives: Dict[str, Any]
     tunnels: Dict[str, int]
+    lives_of_tunnels: Table
     unit: str
 
 class Trade(_Result):

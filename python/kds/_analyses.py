@@ -258,19 +258,21 @@ class Voids(Result):
         how many stretches there are, how many contain no frame, and how long they last, a dictionary.
     ``tunnels``
         how many tunnels began and ended, a dictionary.
+    ``lives_of_tunnels``
+        with the option ``tunnels``: one row for each tunnel, with the simplices that begin and end it.
     ``unit``
         the unit of lengths. Empty if they have none.
     """
 
-    _columns = {"stretches": ["cavity", "void", *(end + part for end in ("begin_", "end_")
-                                                  for part in ("frame", "picoseconds", "beads", "names")),
-                              "began", "ended", "in_a_frame"],
+    _ends = [*(end + part for end in ("begin_", "end_") for part in ("frame", "picoseconds", "beads", "names")),
+             "began", "ended", "in_a_frame"]
+    _columns = {"stretches": ["cavity", "void", *_ends], "lives_of_tunnels": ["tunnel", *_ends],
                 "volumes": ["frame", "cavity", "volume", "area"]}
 
     def __init__(self, found):
         super().__init__({**found, "columns": "cavity,first_closed_frame,last_closed_frame,began,ended,closed,longest,"
                           "openings,frames,volume_median,volume_least,volume_most,atoms,beads,names"})
-        for name in ("stretches", "volumes", "frames"):
+        for name in ("stretches", "volumes", "frames", "lives_of_tunnels"):
             setattr(self, name, table_of_rows(self.json[name], self._columns.get(name, ())))
         self.lives, self.tunnels = self.json["lives"], self.json["tunnels"]
         self.unit = self.json["unit"]

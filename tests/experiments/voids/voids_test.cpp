@@ -31,11 +31,13 @@ TEST(VoidsOptions, DefaultsAndAll) {
   EXPECT_EQ(plain.radius, "element");
   EXPECT_EQ(plain.probe_length(), 1.4);
   EXPECT_EQ(plain.persistence, 0);
-  const VoidsTask all =
-      parse_voids_options({"a.pdb", "--radius", "2", "--persistence", "0.5", "--motion", "hermite"}).task;
+  const VoidsTask all = parse_voids_options({"a.pdb", "--radius", "2", "--persistence", "0.5", "--motion",
+                                             "hermite", "--tunnels"})
+                            .task;
   EXPECT_EQ(all.probe_length(), 0);
   EXPECT_EQ(all.persistence, 0.5);
   EXPECT_EQ(all.motion, FrameMotion::hermite);
+  EXPECT_TRUE(all.tunnels && !plain.tunnels);
   EXPECT_THROW(static_cast<void>(parse_voids_options({"a.pdb", "--persistence", "-1"})), InputError);
   EXPECT_THROW(static_cast<void>(parse_voids_options({"a.pdb", "--probe", "x"})), InputError);
 }
@@ -163,6 +165,20 @@ TEST(Voids, TheZigzagLeadsToTheLastFrame) {
   EXPECT_EQ(complex.size(), 8U + 12U);
 }
 
+TEST(Voids, TunnelsLastWhileTheFacesAreOpen) {
+  // Six open faces are the ends of five tunnels.
+  const Json json = Cube().json({2, 2.5, 2}, {"--tunnels"});
+  ASSERT_EQ(json["lives_of_tunnels"].size(), 5U);
+  for (const Json& tunnel : json["lives_of_tunnels"]) {
+    EXPECT_EQ(tunnel["began"], "end");  // of a triangle
+    EXPECT_NEAR(tunnel["begin_frame"].get<double>(), (opens_at - 2) / 0.5, 1e-6);
+    EXPECT_NEAR(tunnel["end_frame"].get<double>(), 2 - (opens_at - 2) / 0.5, 1e-6);
+    EXPECT_EQ(tunnel["in_a_frame"], true);
+  }
+  EXPECT_EQ(Cube().json({2, 2.5, 2}, {"--tunnels", "--persistence", "1.6"})["lives_of_tunnels"].size(), 0U);
+  EXPECT_EQ(Cube().json({2, 2.5, 2})["lives_of_tunnels"].size(), 0U);
+}
+
 TEST(Voids, OfASingleFrameAreThoseOfThisFrame) {
   const Json json = Cube().json({2});
   EXPECT_EQ(json["frames"].size(), 1U);
@@ -177,7 +193,7 @@ TEST(Voids, NeedTimesThatAdvance) {
   for (const int time : {10, 8}) {
     text += fmt::format("cube t= {}\n    8\n", time);
     for (int corner = 0; corner < 8; ++corner)
-      text += fmt::format("    1AAA     C{:5}{:8.3f}{:8.3f}{:8.3f}\n", corner + 1, 0.2 * (corner & 1),
+      text += fmt::format("    1AAA      C{:5}{:8.3f}{:8.3f}{:8.3f}\n", corner + 1, 0.2 * (corner & 1),
                           0.2 * (corner >> 1 & 1), 0.2 * (corner >> 2 & 1));
     text += "   0 0 0\n";
   }
@@ -189,8 +205,8 @@ TEST(Voids, NeedTimesThatAdvance) {
 
 TEST(Voids, RefusePlanarScenes) {
   const ScratchDirectory directory;
-  const std::string flat =
-      directory.file("flat.xyz", "3\n\nC 0 0 0\nC 1 0 0\nC 0 1 0\n3\n\nC 0 0 0\nC 1 0 0\nC 0 2 0\n");
+  std::string square = "5\n\nC 0 0 0\nC 1 0 0\nC 1 1 0\nC 0 1 0\nC 0.5 2 0\n";
+  const std::string flat = directory.file("flat.xyz", square + square);
   const ProgramRun run = run_program({"voids", flat, "--radius", "1"});
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, HasSubstr("kds voids expects balls in space"));
