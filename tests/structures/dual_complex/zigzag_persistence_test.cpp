@@ -62,6 +62,7 @@ TEST(ZigzagPersistence, IntervalsAreAsManyAsTheBettiNumbersAtAllTimes) {
   for (int round = 0; round < rounds(40, 4); ++round) {
     ZigzagPersistence zigzag;
     std::set<SimplexBeads> complex;
+    std::vector<std::pair<bool, SimplexBeads>> made;
     std::vector<Betti> betti;
     const auto facets_of = [](const std::vector<BeadId>& beads) {
       std::vector<SimplexBeads> facets;
@@ -94,8 +95,30 @@ TEST(ZigzagPersistence, IntervalsAreAsManyAsTheBettiNumbersAtAllTimes) {
         complex.erase(simplex);
       }
       zigzag.add(inserts, simplex);
+      made.emplace_back(inserts, simplex);
       const std::vector<SimplexBeads> now(complex.begin(), complex.end());
       betti.push_back(now.empty() ? Betti{} : gudhi_betti(now));
+    }
+    // Read backwards, the zigzag has the same intervals, mirrored.
+    ZigzagPersistence backwards;
+    std::vector<SimplexBeads> left(complex.begin(), complex.end());
+    const auto size = [](const SimplexBeads& s) { return std::count(s.begin(), s.end(), no_bead); };
+    std::stable_sort(left.begin(), left.end(),
+                     [&](const auto& a, const auto& b) { return size(a) < size(b); });
+    for (const SimplexBeads& simplex : left) {  // faces last
+      zigzag.add(false, simplex);
+      made.emplace_back(false, simplex);
+      complex.erase(simplex);
+      betti.push_back(
+          complex.empty() ? Betti{} : gudhi_betti(std::vector<SimplexBeads>(complex.begin(), complex.end())));
+    }
+    for (auto change = made.rbegin(); change != made.rend(); ++change)
+      backwards.add(!change->first, change->second);
+    for (int dimension = 0; dimension < 3; ++dimension) {
+      std::set<Ends> mirrored;
+      for (const auto& [begin, end] : ends_of(backwards, dimension))
+        mirrored.emplace(made.size() - 1 - end, made.size() - 1 - begin);
+      EXPECT_EQ(mirrored, ends_of(zigzag, dimension)) << "round " << round;
     }
     std::vector<Betti> counted(betti.size());
     std::set<std::size_t> used;  // insertions and deletions that begin or end an interval
