@@ -31,7 +31,7 @@ class Zigzag {
  public:
   Zigzag(std::string* text, bool with_tunnels) : text_(text), with_tunnels_(with_tunnels) {}
 
-  void add(bool inserts, std::span<const BeadId> beads, VoidEnd at) {
+  void add(bool inserts, std::span<const BeadId> beads, const VoidMoment& at, bool is_start = false) {
     ++lines_;
     if (text_ != nullptr)
       fmt::format_to(std::back_inserter(*text_), "{} {}\n", inserts ? 'i' : 'd', fmt::join(beads, " "));
@@ -40,14 +40,15 @@ class Zigzag {
     simplex.fill(no_bead);
     std::copy(beads.begin(), beads.end(), simplex.begin());
     persistence_.add(inserts, simplex);
-    ends_.push_back(std::move(at));
+    ends_.push_back(is_start ? VoidEnd{at, "start", {}}
+                             : VoidEnd{at, inserts ? "begin" : "end", {beads.begin(), beads.end()}});
     times_.push_back(time_);
   }
-  /// Called when time goes on.
+  /// Call this after all changes at one time were added.
   void end_time() { ++time_; }
   [[nodiscard]] std::size_t lines() const { return lines_; }
-  /// Returns the tunnels that last at least `persistence`. `last` is the end of those that last until the
-  /// end.
+  /// Returns the tunnels that last at least `persistence`. `last` becomes the end of the tunnels that still
+  /// exist at the last frame.
   [[nodiscard]] std::vector<ClosedStretch> tunnels(double persistence, const VoidEnd& last,
                                                    const std::vector<TopologyAtFrame>& frames) const {
     std::vector<ZigzagPersistence::Interval> intervals = persistence_.intervals(1);
@@ -58,9 +59,10 @@ class Zigzag {
       const bool lasts = interval.end >= lines_;
       ClosedStretch tunnel{0, ends_[interval.begin], lasts ? last : ends_[interval.end]};
       if (!lasts && times_[interval.begin] == times_[interval.end]) continue;
-      tunnel.is_seen = std::any_of(frames.begin(), frames.end(), [&](const TopologyAtFrame& frame) {
-        return frame.zigzag_lines > interval.begin && frame.zigzag_lines <= interval.end;
-      });
+      const auto frame = std::upper_bound(
+          frames.begin(), frames.end(), interval.begin,
+          [](std::size_t line, const TopologyAtFrame& one) { return line < one.zigzag_lines; });
+      tunnel.is_seen = frame != frames.end() && frame->zigzag_lines <= interval.end;
       if (tunnel.length() >= persistence) tunnels.push_back(std::move(tunnel));
     }
     return tunnels;
@@ -86,9 +88,7 @@ class VoidEvents final : public EventListener {
     if (event.structure == "dual") {
       const int dimension = event.change.size - 1;
       const bool begins = event.change.kind == DualComplex<3>::begins(dimension);
-      const VoidMoment at{event.frame(), event.picoseconds()};
-      zigzag_.add(begins, event.ids(),
-                  {at, begins ? "begin" : "end", {event.ids().begin(), event.ids().end()}});
+      zigzag_.add(begins, event.ids(), {event.frame(), event.picoseconds()});
     }
   }
   [[nodiscard]] bool prints_time_of(const Event& event) const override {
@@ -276,8 +276,7 @@ VoidsReport follow_voids(const VoidsTask& task, bool keep_zigzag,
   };
   for (int dimension = 0; dimension <= 3; ++dimension)
     for (const SimplexBeads& simplex : complex.simplices(dimension))
-      zigzag.add(true, std::span(simplex).first(static_cast<std::size_t>(dimension) + 1),
-                 {moment(0), "start", {}});
+      zigzag.add(true, std::span(simplex).first(static_cast<std::size_t>(dimension) + 1), moment(0), true);
   const auto at_frame = [&](std::size_t frame) {
     TopologyAtFrame& at =
         report.frames.emplace_back(TopologyAtFrame{moment(frame), topology.betti(), 0, zigzag.lines()});
@@ -298,6 +297,7 @@ VoidsReport follow_voids(const VoidsTask& task, bool keep_zigzag,
   report.has_times = moment(0).picoseconds.has_value() && moment(steps).picoseconds.has_value();
   follower.begin(moment(0));
   at_frame(0);
+  zigzag.end_time();  // keeps the tunnels of the first frame that end right there
   for (std::size_t step = 0; step < steps; ++step) {
     InterruptionCheck::ask();
     run.enter_step();

@@ -6,7 +6,8 @@
 // cavity if at least half of the beads around both are common to them (the Jaccard index of the beads when it
 // opened and when it closed). So a cavity has stretches of time in which it is closed, and openings between
 // them. A void that is filled, or merges with another one, does not come back: a void that begins or splits
-// off is a new cavity. Each closing is compared with all cavities that are open.
+// off is a new cavity. Each closing is compared with all cavities that are open. On request, also finds how
+// long each tunnel lasts, by zigzag persistence of the complex.
 
 #include <array>
 #include <cstddef>
@@ -54,6 +55,8 @@ struct ClosedStretch {
   bool is_seen = false;  ///< whether a frame that was read lies in it
 
   [[nodiscard]] double length() const { return end.at.clock() - begin.at.clock(); }
+  /// Returns whether it begins and ends within the run.
+  [[nodiscard]] bool is_complete() const { return begin.how != "start" && end.how != "last frame"; }
 };
 
 /// A cavity at a frame in which it is closed. Lengths are in the input's unit.

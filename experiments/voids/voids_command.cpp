@@ -141,8 +141,7 @@ Lives lives_of(const VoidsReport& report) {
   Lives lives;
   for (const ClosedStretch& stretch : report.all) {
     lives.unseen += stretch.is_seen ? 0 : 1;
-    if (stretch.begin.how != "start" && stretch.end.how != "last frame")
-      lives.of_complete.push_back(stretch.length());
+    if (stretch.is_complete()) lives.of_complete.push_back(stretch.length());
   }
   return lives;
 }
@@ -309,15 +308,20 @@ std::string voids_text(const VoidsReport& report) {
         lives.of_complete.size(), spread.median, unit, spread.least, spread.most, unit);
   }
   text += fmt::format("Tunnels: {} began and {} ended.\n", report.tunnels_begun, report.tunnels_ended);
-  if (!report.tunnels.empty()) {
-    std::vector<double> lengths;
-    for (const ClosedStretch& tunnel : report.tunnels) lengths.push_back(tunnel.length());
+  if (report.tunnels.empty()) return text;
+  std::vector<double> lengths;
+  std::size_t unseen = 0;
+  for (const ClosedStretch& tunnel : report.tunnels) {
+    unseen += tunnel.is_seen ? 0 : 1;
+    if (tunnel.is_complete()) lengths.push_back(tunnel.length());
+  }
+  text += fmt::format("Lives of tunnels: {}, of which {} contain no frame.\n", report.tunnels.size(), unseen);
+  if (!lengths.empty()) {
     const Spread spread = spread_of(lengths);
-    text +=
-        fmt::format("Lives of {} tunnels: median {:.4g} {}, from {:.4g} to {:.4g} {}; {} contain no frame.\n",
-                    lengths.size(), spread.median, unit, spread.least, spread.most, unit,
-                    std::count_if(report.tunnels.begin(), report.tunnels.end(),
-                                  [](const ClosedStretch& tunnel) { return !tunnel.is_seen; }));
+    text += fmt::format(
+        "Lives of tunnels that begin and end within the run: {}, median {:.4g} {}, from {:.4g} to {:.4g} "
+        "{}.\n",
+        lengths.size(), spread.median, unit, spread.least, spread.most, unit);
   }
   return text;
 }

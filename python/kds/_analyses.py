@@ -264,8 +264,8 @@ class Voids(Result):
         the unit of lengths. Empty if they have none.
     """
 
-    _ends = [*(end + part for end in ("begin_", "end_") for part in ("frame", "picoseconds", "beads", "names")),
-             "began", "ended", "in_a_frame"]
+    _ends = ["begin_frame", "begin_picoseconds", "began", "begin_beads", "begin_names", "end_frame", "end_picoseconds",
+             "ended", "end_beads", "end_names", "in_a_frame"]
     _columns = {"stretches": ["cavity", "void", *_ends], "lives_of_tunnels": ["tunnel", *_ends],
                 "volumes": ["frame", "cavity", "volume", "area"]}
 

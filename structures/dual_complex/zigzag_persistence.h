@@ -3,7 +3,7 @@
 // lasts, and which simplices begin and end it.
 //
 // The intervals are those of zigzag persistence over the field of two elements. The zigzag is turned into a
-// filtration without deletions: each insertion adds a cell, and each deletion, in reverse order, adds the
+// filtration without deletions: each insertion adds a new cell, and each deletion, in reverse order, adds the
 // cone of the cell from one more vertex. The pairs of this filtration correspond to the intervals (T. Dey, T.
 // Hou, "Fast computation of zigzag persistence", 2022). Pairs are found by the reduction of the boundary
 // matrix, from high dimensions to low ones, with clearing.
@@ -14,7 +14,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -27,12 +26,15 @@ class ZigzagPersistence {
  public:
   /// A class of homology that exists from one insertion or deletion to another.
   struct Interval {
-    int dimension = 0;               ///< 0: component, 1: tunnel, 2: void
-    std::size_t begin = 0, end = 0;  ///< numbers of insertions and deletions, from 0, in one count
+    int dimension = 0;  ///< 0: component, 1: tunnel, 2: void
+    /// Index of the insertion or deletion that begins it, and of the one that ends it; both are counted
+    /// together from 0.
+    std::size_t begin = 0, end = 0;
   };
 
-  /// Inserts or deletes the next simplex, whose unused entries hold no_bead. Throws std::invalid_argument if
-  /// the simplices do not form a complex after it.
+  /// Inserts or deletes the next simplex: one to four beads, ascending; unused entries hold no_bead. Throws
+  /// std::invalid_argument, and changes nothing, if a simplex is inserted twice or before its facets, or is
+  /// deleted while it is missing or has cofaces.
   void add(bool inserts, const SimplexBeads& beads) { inserts ? insert(beads) : erase(beads); }
   /// Returns the number of insertions and deletions so far.
   [[nodiscard]] std::size_t count() const { return count_; }
@@ -75,6 +77,7 @@ class ZigzagPersistence {
       if (found == live_.end()) throw std::invalid_argument("a simplex is inserted before its facets");
       cell.facets.push_back(found->second);
     }
+    if (size == 0) throw std::invalid_argument("a simplex without beads");
     if (!live_.emplace(beads, static_cast<std::uint32_t>(cells_.size())).second)
       throw std::invalid_argument("a simplex is inserted twice");
     for (const std::uint32_t facet : cell.facets) ++cells_[facet].cofaces;
@@ -99,14 +102,13 @@ class ZigzagPersistence {
     for (std::size_t i = 0; i < count; ++i)
       cone_of[deleted_[count - 1 - i]] = static_cast<std::uint32_t>(1 + count + i);
     std::vector<std::uint32_t> cell_at(2 * count + 1, none);
-    std::vector<std::vector<std::uint32_t>> by_dimension(6);  // indices, ascending
+    std::vector<std::vector<std::uint32_t>> by_dimension(5);  // indices, ascending
     for (std::uint32_t cell = 0; cell < count; ++cell) {
       cell_at[1 + cell] = cell_at[cone_of[cell]] = cell;
       by_dimension[cells_[cell].dimension].push_back(1 + cell);
     }
     for (std::uint32_t index = static_cast<std::uint32_t>(1 + count); index < cell_at.size(); ++index)
       by_dimension[cells_[cell_at[index]].dimension + 1].push_back(index);
-    for (auto& indices : by_dimension) std::sort(indices.begin(), indices.end());
 
     std::vector<Column> reduced(2 * count + 1);
     std::vector<std::uint32_t> paired_with(2 * count + 1, none);  // of a pivot: the column that has it

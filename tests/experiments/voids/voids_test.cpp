@@ -179,6 +179,23 @@ TEST(Voids, TunnelsLastWhileTheFacesAreOpen) {
   EXPECT_EQ(Cube().json({2, 2.5, 2})["lives_of_tunnels"].size(), 0U);
 }
 
+TEST(Voids, ATunnelThatEndsAtTheFirstFrameIsKept) {
+  // Balls of radius 1 on a square of side 2 touch at the first frame and then part.
+  const ScratchDirectory directory;
+  const std::string file = directory.file(
+      "touch.xyz",
+      "5\n\nC 0 0 0\nC 2 0 0\nC 2 2 0\nC 0 2 0\nC 9 9 9\n5\n\nC 0 0 0\nC 3 0 0\nC 3 3 0\nC 0 3 0\nC 9 9 9\n");
+  const ProgramRun run = run_program({"voids", file, "--radius", "1", "--tunnels", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["frames"][0]["b1"], 1);
+  ASSERT_EQ(json["lives_of_tunnels"].size(), 1U);
+  EXPECT_EQ(json["lives_of_tunnels"][0]["began"], "start");
+  EXPECT_EQ(json["lives_of_tunnels"][0]["ended"], "end");
+  EXPECT_EQ(json["lives_of_tunnels"][0]["end_frame"], 0);
+  EXPECT_EQ(json["lives_of_tunnels"][0]["in_a_frame"], true);
+}
+
 TEST(Voids, OfASingleFrameAreThoseOfThisFrame) {
   const Json json = Cube().json({2});
   EXPECT_EQ(json["frames"].size(), 1U);

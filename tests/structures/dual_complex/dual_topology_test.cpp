@@ -183,12 +183,14 @@ TEST(DualTopology, NamesASimplexAtEachEventWhereBeadsTie) {
     balls.simulator.run_step();
     for (const Event& event : log.events) {
       if (event.structure != "voids" || !event.kind.external) continue;
-      const bool names_two = event.change.kind == Topology::component_merge ||
-                             event.change.kind == Topology::component_split ||
-                             event.change.kind == Topology::void_merge ||
-                             event.change.kind == Topology::void_split;
+      const bool names_two =
+          event.change.kind == Topology::component_merge || event.change.kind == Topology::component_split ||
+          event.change.kind == Topology::void_merge || event.change.kind == Topology::void_split;
       const bool is_tunnel = event.change.kind >= Topology::tunnel_begin;
-      EXPECT_GT(event.change.size, is_tunnel ? 0 : names_two ? 2 : 1) << event.kind.name << ", round " << round;
+      EXPECT_GT(event.change.size, is_tunnel   ? 0
+                                   : names_two ? 2
+                                               : 1)
+          << event.kind.name << ", round " << round;
       voids += event.change.kind >= Topology::void_begin && event.change.kind <= Topology::void_close ? 1 : 0;
     }
     if (HasFailure()) return;
