@@ -49,7 +49,7 @@ struct VoidEnd {
 };
 
 struct ClosedStretch {
-  /// Number of the void; the last one if openings are bridged. 0 for a tunnel.
+  /// Number of the void; the first one if openings are bridged. 0 for a tunnel.
   DualTopology<3>::Number number = 0;
   VoidEnd begin, end;
   bool is_seen = false;  ///< whether a frame that was read lies in it

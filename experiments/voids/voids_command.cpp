@@ -30,8 +30,7 @@ constexpr CommandSpec kVoidsCommand{
     "Follows the voids of the union of balls: cavities that no probe can leave. Gives the times at which "
     "each one is closed, exactly for the paths between frames, the gate through which it opens, its atoms, "
     "and its volume at frames. By default all atoms of the chains are balls with their van der Waals radii "
-    "(--select all, "
-    "--radius element); --select '//*/*' adds ligands and water.",
+    "(--select all, --radius element); --select '//*/*' adds ligands and water.",
     {},
     {},
     "kds voids dhodh.dcd --topology dhodh.pdb --persistence 0.1 --out voids\n"
@@ -131,20 +130,26 @@ Table<CavityRow> cavity_columns(const VoidsReport& report) {
        column("names", "", [](const R& r) { return Field(names_of(*r.report, r.cavity->beads)); })});
 }
 
-/// How long cavities stay closed without an opening, over all stretches.
+/// How long closed stretches or tunnels last.
 struct Lives {
-  std::size_t unseen = 0;             ///< stretches without a frame
-  std::vector<double> of_complete{};  ///< lengths of the stretches that begin and end within the run
-};
+  std::size_t unseen = 0;             ///< those without a frame
+  std::vector<double> of_complete{};  ///< lengths of those that begin and end within the run
 
-Lives lives_of(const VoidsReport& report) {
-  Lives lives;
-  for (const ClosedStretch& stretch : report.all) {
-    lives.unseen += stretch.is_seen ? 0 : 1;
-    if (stretch.is_complete()) lives.of_complete.push_back(stretch.length());
+  explicit Lives(const std::vector<ClosedStretch>& all) {
+    for (const ClosedStretch& one : all) {
+      unseen += one.is_seen ? 0 : 1;
+      if (one.is_complete()) of_complete.push_back(one.length());
+    }
   }
-  return lives;
-}
+  /// Returns a line about the lengths, which begins with `what`, or nothing if there are none.
+  [[nodiscard]] std::string text(std::string_view what, std::string_view unit) const {
+    if (of_complete.empty()) return "";
+    const Spread spread = spread_of(of_complete);
+    return fmt::format(
+        "{} that begin and end within the run: {}, median {:.4g} {}, from {:.4g} to {:.4g} {}.\n", what,
+        of_complete.size(), spread.median, unit, spread.least, spread.most, unit);
+  }
+};
 
 Table<TopologyAtFrame> frame_columns(const VoidsReport& report) {
   using F = TopologyAtFrame;
@@ -256,7 +261,7 @@ VoidsOptions parse_voids_options(const Arguments& arguments) {
 }
 
 void add_voids(const VoidsReport& report, Json& json) {
-  const Lives lives = lives_of(report);
+  const Lives lives(report.all);
   json["unit"] = report.unit;
   json["probe"] = report.scene->probe();
   json["clock"] = report.has_times ? "ps" : "frames";
@@ -298,31 +303,16 @@ std::string voids_text(const VoidsReport& report) {
   if (report.short_ones > 0)
     text += fmt::format("Cavities left out, because no stretch is as long as --persistence: {}.\n",
                         report.short_ones);
-  const Lives lives = lives_of(report);
+  const Lives lives(report.all);
   text += fmt::format("Stretches of time in which a cavity is closed: {}, of which {} contain no frame.\n",
                       report.all.size(), lives.unseen);
-  if (!lives.of_complete.empty()) {
-    const Spread spread = spread_of(lives.of_complete);
-    text += fmt::format(
-        "Stretches that begin and end within the run: {}, median {:.4g} {}, from {:.4g} to {:.4g} {}.\n",
-        lives.of_complete.size(), spread.median, unit, spread.least, spread.most, unit);
-  }
+  text += lives.text("Stretches", unit);
   text += fmt::format("Tunnels: {} began and {} ended.\n", report.tunnels_begun, report.tunnels_ended);
   if (report.tunnels.empty()) return text;
-  std::vector<double> lengths;
-  std::size_t unseen = 0;
-  for (const ClosedStretch& tunnel : report.tunnels) {
-    unseen += tunnel.is_seen ? 0 : 1;
-    if (tunnel.is_complete()) lengths.push_back(tunnel.length());
-  }
-  text += fmt::format("Lives of tunnels: {}, of which {} contain no frame.\n", report.tunnels.size(), unseen);
-  if (!lengths.empty()) {
-    const Spread spread = spread_of(lengths);
-    text += fmt::format(
-        "Lives of tunnels that begin and end within the run: {}, median {:.4g} {}, from {:.4g} to {:.4g} "
-        "{}.\n",
-        lengths.size(), spread.median, unit, spread.least, spread.most, unit);
-  }
+  const Lives of_tunnels(report.tunnels);
+  text += fmt::format("Lives of tunnels: {}, of which {} contain no frame.\n", report.tunnels.size(),
+                      of_tunnels.unseen);
+  text += of_tunnels.text("Lives of tunnels", unit);
   return text;
 }
 

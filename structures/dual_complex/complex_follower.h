@@ -12,7 +12,7 @@ namespace kds {
 /// A simplex by its dimension and beads.
 using DimensionAndBeads = std::pair<int, SimplexBeads>;
 
-/// What changed in a dual complex at one time.
+/// Changes of a dual complex at one time.
 struct ComplexChange {
   /// The simplices that belong to the complex no longer, and those that belong to it now, as in its events.
   std::span<const DimensionAndBeads> ends, begins;

@@ -27,8 +27,8 @@ class UnionOfBalls {
  private:
   Eigen::Matrix3Xd centers_;
   std::vector<double> radii_;
-  // Where cross-sections change, for each ball: the ends of its sphere and its circles, and its exposed
-  // corners.
+  // For each ball, the heights at which its cross-section changes: the ends of its sphere and of its circles,
+  // and its exposed corners.
   std::vector<std::vector<double>> heights_;
 };
 
