@@ -52,6 +52,9 @@ template std::unique_ptr<CertificateSearch<Contact>> search_over(const MotionRef
 template std::unique_ptr<CertificateSearch<ImageContact>> search_over(const MotionRef<2>&);
 template std::unique_ptr<CertificateSearch<ImageContact>> search_over(const MotionRef<3>&);
 
+template std::unique_ptr<CertificateSearch<DistanceBeyond>> search_over(const MotionRef<2>&);
+template std::unique_ptr<CertificateSearch<DistanceBeyond>> search_over(const MotionRef<3>&);
+
 template std::unique_ptr<CertificateSearch<SegmentsOrientation>> search_over(const MotionRef<3>&);
 
 // Asked for at few times only, where four points are coplanar.

@@ -7,6 +7,7 @@
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/certificate_type.h"
+#include "certificates/base/constants.h"
 #include "certificates/types/shifted_difference.h"
 
 namespace kds {
@@ -109,6 +110,36 @@ struct ImageContact {
     const auto d = shifted_difference(view, beads[1], beads[0], beads[2], beads[3]);
     const auto reach = view.radius_sum(beads[1], beads[0]);
     return dot(d, d) - reach * reach;
+  }
+};
+
+/// Compares the distance of two centres with a length: |c_i - c_j|^2 - length^2 is positive while they are
+/// further apart.
+struct DistanceBeyond {
+  static constexpr CertificateType type{21, "distance_beyond"};
+  struct Constants {
+    Constant<1> length;
+  };
+
+  std::array<BeadId, 2> beads{};  ///< ascending
+  int sign = 1;
+
+  DistanceBeyond() = default;
+  /// Holds while the centres are at least that far apart, or, if `sign_wanted` is -1, at most that far.
+  DistanceBeyond(std::array<BeadId, 2> in_any_order, int sign_wanted)
+      : beads(in_any_order), sign(sign_wanted) {
+    static_cast<void>(sort_beads(beads));
+  }
+
+  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
+
+  [[nodiscard]] bool side() const { return sign > 0; }
+
+  template <MotionView View>
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 2>& beads) {
+    const auto d = view.difference(beads[1], beads[0]);
+    const auto length = view.constant(&Constants::length);
+    return dot(d, d) - length * length;
   }
 };
 

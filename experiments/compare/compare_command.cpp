@@ -75,7 +75,8 @@ const OptionList<CompareOptions>& compare_options() {
                               "run over every frame, every second, every fourth: 1,2,4 (default: 1)"},
                              &O::strides, parse_strides),
                  list_option({"--motions", "LIST", motions_help}, &O::motions, parse_motions),
-                 directions_option(&O::directions), probe_option(&O::probe), compare_apart_option(),
+                 directions_option(&O::directions), stretch_option(&O::stretch), probe_option(&O::probe),
+                 compare_apart_option(),
                  whole_option({"--rounds", "N",
                                "repeat each run N times and report the median time, and the shortest and "
                                "longest (default: 3)"},

@@ -22,6 +22,7 @@ struct CompareOptions : InputOptions, Destinations {
   std::size_t rounds = 3;                     ///< timed repetitions of each run
   std::optional<BeadId> apart;                ///< --apart
   std::optional<int> directions;              ///< --directions
+  std::optional<double> stretch;              ///< --stretch
   std::optional<double> probe;                ///< --probe
   std::optional<std::size_t> threads;         ///< --threads; empty for all cores
   std::optional<std::filesystem::path> view;  ///< page that shows the first run

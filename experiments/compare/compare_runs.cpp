@@ -57,6 +57,7 @@ RunOptions run_of(const CompareOptions& options, std::size_t input, FrameMotion 
   run.periodic = options.periodic;
   run.apart = options.apart;
   run.directions = options.directions;
+  run.stretch = options.stretch;
   run.probe = options.probe;
   run.threads = options.threads;
   return run;

@@ -442,4 +442,13 @@ template <class Options, class Member>
                       directions, 2, 13);
 }
 
+/// Returns the option --stretch of spanners.
+template <class Options>
+[[nodiscard]] Option<Options> stretch_option(std::optional<double> Options::*stretch) {
+  return real_option({"--stretch", "S",
+                      "spanner: shortest paths along its edges are at most S times as long as straight "
+                      "lines (default: 3)"},
+                     stretch, {1.001, 1e6});
+}
+
 }  // namespace kds

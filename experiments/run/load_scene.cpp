@@ -355,6 +355,7 @@ KineticRunOptions kinetic_run_options(const RunOptions& options, const Scene& sc
   kinetic.settings.between = options.between.value_or(kinetic.settings.between);
   kinetic.settings.tightness = options.tightness;
   kinetic.settings.directions = options.directions;
+  kinetic.settings.stretch = options.stretch.value_or(kinetic.settings.stretch);
   kinetic.settings.contact_distance = options.distances.first();
   kinetic.settings.groups = scene.bead_groups();
   if (kinetic.structures.empty()) kinetic.structures = default_structures(scene);

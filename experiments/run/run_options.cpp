@@ -187,6 +187,7 @@ const OptionList<RunOptions>& motion_and_structure_options() {
           .with(OptionList<InputOptions>({only_for({"contacts"}, groups_option())}))
           .with({
               only_for({"boxes"}, directions_option(&O::directions)),
+              only_for({"spanner"}, stretch_option(&O::stretch)),
               probe_option_of_run(),
               tolerance_option(),
           });

@@ -46,6 +46,7 @@ struct RunOptions : InputOptions, Destinations {
   std::optional<Between> between;               ///< --between; empty if not given
   std::optional<double> tightness;              ///< --tightness; empty if not given
   std::optional<int> directions;                ///< --directions; empty if not given
+  std::optional<double> stretch;                ///< --stretch; empty if not given
   std::optional<double> probe;                  ///< --probe; empty if not given
   std::optional<MotionTolerance> tolerance;     ///< --tolerance; empty if not given
   bool certify = false;                         ///< --certify

@@ -49,6 +49,7 @@ class _Settings(TypedDict, total=False):
     tightness: Optional[float]
     apart: Optional[int]
     directions: Optional[int]
+    stretch: Optional[float]
     probe: Optional[float]
     tolerance: Union[float, str, None]
     certify: bool
@@ -85,6 +86,7 @@ class _Compare(_Input, total=False):
     strides: Optional[Strides]
     motions: Optional[Names]
     directions: Optional[int]
+    stretch: Optional[float]
     probe: Optional[float]
     apart: Optional[int]
     rounds: Optional[int]

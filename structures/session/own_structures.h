@@ -38,12 +38,13 @@ inline constexpr const char* fictitious_radii =
 }
 
 // Add the specifications of one file each: point_structures.cpp, hierarchy_structures.cpp,
-// ball_structures.cpp, dual_structures.cpp, bond_structures.cpp.
+// ball_structures.cpp, dual_structures.cpp, bond_structures.cpp, spanner_structures.cpp.
 void add_point_structures(StructureRegistry& registry);
 void add_hierarchy_structures(StructureRegistry& registry);
 void add_ball_structures(StructureRegistry& registry);
 void add_dual_structures(StructureRegistry& registry);
 void add_bond_structures(StructureRegistry& registry);
+void add_spanner_structures(StructureRegistry& registry);
 
 /// Returns a specification's `make`, which calls make(simulator, scene, motion, settings) for motions of at
 /// least LeastDimension dimensions. The specification must refuse scenes of fewer dimensions beforehand.

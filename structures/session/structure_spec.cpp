@@ -44,6 +44,7 @@ StructureRegistry& structure_registry() {
     add_ball_structures(own);
     add_dual_structures(own);
     add_bond_structures(own);
+    add_spanner_structures(own);
     return own;
   }();
   return registry;

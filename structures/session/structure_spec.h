@@ -130,6 +130,7 @@ struct StructureSettings {
   BeadGroups groups{};
   /// For boxes: one of box_direction_counts (box_hierarchy.h). No value: the axes.
   std::optional<int> directions{};
+  double stretch = 3;  ///< for `spanner`: above 1
   /// For contacts: the distance at which beads are in contact. No value: balls with the scene's radii meet.
   std::optional<ContactDistance> contact_distance{};
   /// Set by the run for a structure that stands on another one (StructureSpec::stands_on).

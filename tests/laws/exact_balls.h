@@ -23,6 +23,7 @@ namespace kds::test {
 struct ExactBalls {
   std::vector<std::vector<second::Integer>> centers;
   std::vector<second::Integer> radii, weights;
+  second::Integer one;                             ///< the length 1
   std::vector<std::vector<second::Integer>> cell;  ///< the vectors of a periodic cell; empty if there is none
 
   [[nodiscard]] std::size_t dimension() const { return centers.front().size(); }
@@ -46,7 +47,7 @@ template <int Dimension>
     for (int k = 0; k <= curves.own_degree(); ++k) numbers.push_back(value(k));
     return numbers;
   };
-  std::vector<double> lengths, squares;
+  std::vector<double> lengths{1}, squares;
   for (BeadId b = 0; b < rows; ++b)
     for (int k = 0; k <= curves.own_degree(); ++k) {
       for (int axis = 0; axis < Dimension; ++axis) lengths.push_back(curves.coordinate(b, k, axis));
@@ -61,6 +62,7 @@ template <int Dimension>
   const second::Rational time = second::of(u);
   const second::Integer power = pow(denominator(time), static_cast<unsigned>(curves.own_degree()));
   ExactBalls balls;
+  balls.one = second::whole_value(column([](int) { return 1.0; }), time, unit);
   for (int vector = 0; curves.cell() != nullptr && vector < Dimension; ++vector) {
     auto& along = balls.cell.emplace_back();
     for (int axis = 0; axis < Dimension; ++axis)

@@ -9,6 +9,8 @@
 #include "structures/dual_complex/dual_topology.h"
 #include "structures/hull/convex_hull.h"
 #include "structures/power_diagram/power_diagram.h"
+#include "structures/spanner/spanner.h"
+#include "tests/support/judges/spanner_checks.h"
 
 namespace kds::test {
 
@@ -42,6 +44,16 @@ std::optional<std::string> fault_of_contacts(const Judged& judged) {
   Beads pairs;
   for (const ReplayElement& pair : layers[0]) pairs.insert(pairs.end(), {pair[0], pair[1]});
   return differs(pairs, contacts_of(judged.balls, judged.present, asked));
+}
+
+std::optional<std::string> fault_of_spanner(const Judged& judged) {
+  const auto fault_in = [&](const auto& spanner) {
+    return not_a_spanner(spanner, judged.present, judged.balls.one,
+                         [&](BeadId a, BeadId b) { return judged.balls.square(a, b); });
+  };
+  if (const auto* plane = dynamic_cast<const Spanner<2>*>(&kinetic(judged.structure)))
+    return fault_in(*plane);
+  return fault_in(dynamic_cast<const Spanner<3>&>(kinetic(judged.structure)));
 }
 
 std::optional<std::string> fault_of_boxes(const Judged& judged) {
@@ -118,7 +130,9 @@ std::optional<std::string> fault_of_topology(const Judged& judged) {
 
 std::string LawStructure::title() const {
   return name + (settings.between == Between::chord ? " between chords" : "") +
-         (settings.directions ? fmt::format(" with {} directions", *settings.directions) : "");
+         (settings.directions ? fmt::format(" with {} directions", *settings.directions) : "") +
+         (settings.stretch == StructureSettings{}.stretch ? ""
+                                                          : fmt::format(" of stretch {}", settings.stretch));
 }
 
 const std::vector<LawStructure>& law_structures() {
@@ -127,6 +141,8 @@ const std::vector<LawStructure>& law_structures() {
       {"box", {}, Edits::beads, true, fault_of_box},
       {"hull", {}, Edits::beads, true, fault_of_hull},
       {"closest", {}, Edits::beads, true, fault_of_closest},
+      {"spanner", {}, Edits::beads, false, fault_of_spanner, 8},
+      {"spanner", {.stretch = 10}, Edits::beads, false, fault_of_spanner, 8},
       {"wrapped", {}, Edits::courses, false, fault_of_wrapped},
       {"wrapped", {.between = Between::chord}, Edits::none},
       {"layered", {}, Edits::none},

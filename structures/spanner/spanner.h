@@ -1,0 +1,200 @@
+#pragma once
+// Kinetic spanner of the beads' centres: a graph whose shortest paths are at most `stretch` times as long as
+// straight lines, while the beads move. Built on a hierarchy of centres. After Gao, Guibas, Nguyen,
+// Deformable spanners and applications (2004).
+//
+// Level i has a scale u 2^i. All beads are centres of level 0. Centres of level i > 0 are centres of level
+// i - 1 that are at least the scale apart, and each centre of level i - 1 has a parent among them within the
+// scale (itself if it is one). The root is a centre of all levels. Two centres of a level are joined while
+// they are at most c u 2^i apart, with c = 4 + 16 / (stretch - 1). The spanner's edges are the pairs that are
+// joined at some level.
+//
+// Proof of the stretch: let p and q be beads, and let i be the lowest level at which their ancestors are
+// equal or joined. A bead's ancestor at level i is within 2 u 2^i of it, on a path of edges, because c > 2.
+// So the path over the ancestors is at most 8 u 2^i longer than |pq|. If i > 0, the ancestors at level i - 1
+// are more than c u 2^(i-1) apart, so |pq| > (c - 4) u 2^(i-1).
+//
+// Four conditions on distances certify the spanner: a parent covers its child, centres of a level stay apart,
+// joined centres stay near, and cousins (centres that are not joined, but whose parents are equal or joined)
+// stay far. Centres whose parents are not joined are far by the triangle inequality, because c > 4. A pair is
+// joined at all levels from its lowest one on at which both are centres, so each pair has at most three
+// certificates.
+//
+// If a parent loses a child, the child takes another parent; if none covers it, it becomes a centre of the
+// next level. If two centres get too near, one of them leaves the level, and its children there take other
+// parents. The hierarchy depends on its past, the definition holds at all times.
+//
+// u is 2^-30 of the extent at the first frame, rounded down to a power of two. All beads within c u are
+// joined, so the cost is quadratic in the number of beads that are together.
+//
+// All results are exact. Radii do not enter.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "certificates/types/distances.h"
+#include "kds/certificate_table.h"
+#include "kds/structure_base.h"
+#include "motions/curves/motion_ref.h"
+#include "structures/necklace/bead_pairs.h"
+
+namespace kds {
+
+template <int Dimension>
+class Spanner final : public EditableBase {
+ public:
+  /// Kinds of events. Ids of `join` and `part`: the beads of an edge, ascending. Ids of `rise`, `fall` and
+  /// `adopt`: the bead, its parent, and the highest level of which it is now a centre: a higher one, a lower
+  /// one, or the level before with another parent. The root has no parent, and `root_level`. Ids of
+  /// `rescale`: the beads of an edge, and the lowest level at which they are now joined. Ids of `inserts`:
+  /// those of `rise`.
+  enum Kind : std::uint8_t { join, part, rise, fall, adopt, rescale, inserts, erases, changes };
+
+  static constexpr BeadId root_level = 1U << 20U;
+  static constexpr double default_stretch = 3;
+
+  struct Centre {
+    BeadId bead, parent, level;  ///< the highest level; no_bead and root_level for the root
+    friend auto operator<=>(const Centre&, const Centre&) = default;
+  };
+
+  /// Throws std::invalid_argument unless stretch > 1.
+  Spanner(Simulator& simulator, const MotionRef<Dimension>& motion, double stretch = default_stretch);
+
+  /// Returns the edges, ascending.
+  [[nodiscard]] std::vector<BeadPair> edges() const;
+  /// Returns the beads that are present, ascending.
+  [[nodiscard]] std::vector<Centre> centres() const;
+  /// Returns the scale u of level 0.
+  [[nodiscard]] double unit() const { return unit_; }
+  /// Returns c, rounded up.
+  [[nodiscard]] double reach() const { return reach_; }
+
+  void build() override;
+  void start_step() override;
+  void fail(unsigned table, std::uint32_t slot) override;
+  void apply(const Change& change) override;
+  [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
+
+ private:
+  using Table = CertificateTable<DistanceBeyond>;
+  using Key = std::uint64_t;
+  static constexpr CertificateHandle none = CertificateHandle::violated;
+  static constexpr int levels_below_extent = 30;
+
+  /// The lengths of a level i with which distances are c u 2^i and u 2^i.
+  enum class Length : std::uint8_t { reach, scale };
+  struct Guard {
+    CertificateHandle handle = none;
+    Length length{};
+    int level = 0;
+  };
+  /// A pair of beads whose ancestors at the next level above `common` are equal or joined.
+  struct Pair {
+    std::array<BeadId, 2> beads{};  // ascending
+    int common = 0;                 // the highest level of which both are centres
+    int lowest = 0;                 // level at which they are joined; common + 1 if they are not joined
+    Guard near{}, far{};            // joined at `lowest`, not joined at the level below
+    Guard apart{};                  // at least the scale of `common` apart
+
+    [[nodiscard]] bool is_joined() const { return lowest <= common; }
+    [[nodiscard]] bool is_joined_at(int level) const { return lowest <= level && level <= common; }
+    [[nodiscard]] BeadId other(BeadId bead) const { return beads[0] == bead ? beads[1] : beads[0]; }
+  };
+  struct Node {
+    BeadId parent = no_bead;
+    int top = 0;                   // the highest level of which the bead is a centre
+    Guard cover{};                 // within the parent's scale
+    std::vector<BeadId> children;  // other beads, at all levels
+    std::vector<Pair*> pairs;
+  };
+  /// A pair before the event that is being handled.
+  struct Before {
+    bool was_joined;
+    int lowest;
+  };
+
+  [[nodiscard]] static Key key_of(BeadId a, BeadId b) {
+    return a < b ? (Key{a} << 32U) | b : (Key{b} << 32U) | a;
+  }
+
+  [[nodiscard]] Table& table(Length length, int level);
+  void set_constants(std::size_t table);
+  /// Returns the sign of |ab| less the length: just after the present time, or at the first frame while the
+  /// structure is being built.
+  [[nodiscard]] int sign(Length length, int level, BeadId a, BeadId b);
+  /// Makes the certificate unless it exists: that the beads are at least (`wanted` 1) or at most (-1) the
+  /// length apart. Returns false if that does not hold. Makes no certificates while the structure is being
+  /// built.
+  [[nodiscard]] bool hold(Guard& guard, Length length, int level, std::array<BeadId, 2> beads, int wanted);
+  void drop(Guard& guard, const std::array<BeadId, 2>& beads);
+  /// Same for a certificate that has failed.
+  void forget(Guard& guard, const std::array<BeadId, 2>& beads);
+
+  /// Returns null if the pair is not tracked.
+  [[nodiscard]] Pair* find(BeadId a, BeadId b);
+  [[nodiscard]] BeadId ancestor(BeadId bead, int level) const;
+  /// Returns the centre and all that are joined with it at the level, ascending.
+  [[nodiscard]] std::vector<BeadId> joined_with(BeadId centre, int level) const;
+  /// Returns the centres of the level below whose parent is the centre; the first is the centre itself.
+  [[nodiscard]] std::vector<BeadId> children(BeadId centre, int level) const;
+  /// Returns whether two beads are to be tracked: their ancestors above their common level are equal or
+  /// joined.
+  [[nodiscard]] bool are_cousins(BeadId a, BeadId b);
+
+  void remember(const Pair& pair);
+  void record_edges();
+  void record_centre(Kind kind, BeadId bead);
+  void track(BeadId a, BeadId b);
+  void untrack(Pair& pair);
+  /// Finds the lowest level at which the pair is joined, from the present one on, and makes its certificates.
+  void certify(Pair& pair);
+  void certify_apart(Pair& pair);
+  void lower(Pair& pair);
+  void lift(Pair& pair);
+  /// Tracks the children of two centres that are now joined at a level.
+  void join_at(const Pair& pair, int level);
+  void set_common(Pair& pair, int common);
+  void settle(BeadId bead);
+
+  void unlink(BeadId bead);
+  void link(BeadId bead, BeadId parent, int top);
+  void cover(BeadId bead);
+  void find_parent(BeadId bead, BeadId near);
+  void leave_level(BeadId centre, BeadId parent);
+  void replace_root();
+  void put(BeadId bead);
+  void take_out(BeadId bead);
+  void resolve();
+
+  void edit(std::uint8_t kind, BeadId bead) override;
+  void release(std::span<const BeadId> beads) override;
+  void follow(std::span<const BeadId> beads) override;
+
+  MotionRef<Dimension> motion_;
+  double reach_, unit_ = 1;
+  std::vector<std::unique_ptr<Table>> tables_;  // by level, reach before scale; null until used
+  std::vector<Node> nodes_;
+  BeadId root_ = no_bead;
+  std::unordered_map<Key, Pair> pairs_;
+  std::map<Key, Before> before_;  // of pairs that the present event may have changed
+  std::vector<std::array<BeadId, 2>>
+      broken_;                // beads of certificates that do not hold and are not yet repaired
+  BeadId leaving_ = no_bead;  // a centre whose children take other parents
+  bool building_ = false;
+  bool knows_pairs_ = false;          // not after changes from a log, which names edges only
+  std::vector<std::uint32_t> named_;  // the number of certificates on each bead
+};
+
+static_assert(EditableStructure<Spanner<2>>);
+
+}  // namespace kds
