@@ -86,6 +86,13 @@ export function eventSentence({ structure, kind, roles, changes, nodes, names, d
       replace: () => [...list(ids.is, enters), " become the closest pair in place of ", ...list(ids.was, leaves)],
       overtake: () => [...list(ids.is), " come closer than ", ...list(ids.was)],
     },
+    spanner: {
+      join: () => [enters(ids.first[0]), " and ", enters(ids.second[0]), " become an edge of the spanner"],
+      part: () => [leaves(ids.first[0]), " and ", leaves(ids.second[0]), " are an edge of the spanner no more"],
+      rise: () => [enters(ids.bead[0]), ` becomes a centre of level ${ids.level[0]}, under `, plain(ids.parent[0])],
+      fall: () => [leaves(ids.bead[0]), ` falls to level ${ids.level[0]}, under `, plain(ids.parent[0])],
+      adopt: () => [plain(ids.bead[0]), " gets another parent, ", enters(ids.parent[0])],
+    },
     box: () => {
       if (kind === "overtake") return [plain(ids.is[0]), " overtakes ", plain(ids.was[0]), " on the way to an end of the box"];
       const [end, axis] = kind.split("-");

@@ -17,6 +17,7 @@ const structures = {
   box: "Enclosing box: the smallest box around all beads.",
   hull: "Convex hull of the beads in the plane.",
   closest: "Closest pair: the two beads with the least distance.",
+  spanner: "Spanner: a sparse graph of the beads with short paths, on a hierarchy of centres.",
 };
 
 const kinds = {
@@ -77,6 +78,14 @@ const kinds = {
     interchange: "Two corners exchange their order along an axis.",
   },
   closest: { replace: "Another pair becomes the closest.", overtake: "A pair overtakes another within the tournament." },
+  spanner: {
+    join: "An edge of the spanner begins: both beads are near for a level of which they are centres.",
+    part: "An edge of the spanner ends.",
+    rise: "A bead becomes a centre of a higher level, because no other centre covers it.",
+    fall: "A bead is no longer a centre of its highest level, because another centre is too near.",
+    adopt: "A bead leaves the reach of its parent and takes another one.",
+    rescale: "The edge is now that of another level.",
+  },
   boxes: { support: "Another bead holds a side of this box." },
   box: { overtake: "A bead overtakes another within the tournament for an end of the box." },
 };
