@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from . import _kds, _plots
+from . import _kds, _lifetimes, _plots
 from ._inputs import open_input
 from ._options import INPUT, InputError, arguments, call, check_names, cutoff_text, flag, number, takes, warn
 from ._tables import Result, table, table_of_rows
@@ -62,6 +62,24 @@ class Contacts(Result):
         columns.update({name: found[name].astype(bool) for name in ("open_at_start", "open_at_end")})
         self.intervals = table(columns)
 
+    def correlation(self, lags):
+        """Returns the correlation functions of contacts at these lags, a table. They are exact for the paths between frames.
+
+        ``intermittent`` is C(t): of the pairs that are in contact at a random time, the share that is in contact a lag later.
+        ``continuous`` is S(t): the share that is in contact all the while. Contacts that are open at an end of the run count too.
+        The 95% intervals, such as ``intermittent_lower``, are for another run of the same pairs, as in :meth:`over_time`.
+        """
+        return _lifetimes.correlation(lags, [_lifetimes.Timeline(self)])
+
+    def over_time(self):
+        """Returns occupancy, residence and rates of all pairs with 95% intervals for another run of the same pairs, a dictionary.
+
+        The intervals come from the spread over 16 stretches of the run and cover any dependence between pairs. Intervals of
+        ``all`` are for other pairs and take pairs as independent. Use this method for the pairs of one molecule.
+        """
+        line = _lifetimes.Timeline(self)
+        return _lifetimes.figures([line.counts(*one) for one in _lifetimes.stretches(line.length)], in_order=True)
+
     def map(self):
         """Returns the share of time in contact of each pair, a symmetric array (elements, elements)."""
         occupancy = np.zeros((len(self.names), len(self.names)))
@@ -96,6 +114,54 @@ def contacts(source, *, cutoff, verbose=False, **options):
         options["gap"] = number("gap", options["gap"], "a length of time from 0")
     options["surface"] = flag("surface", options.get("surface", False))
     return Contacts(_analyse(contacts, source, {"cutoff": cutoff_text(cutoff, 2), **options}, verbose))
+
+
+class Replicas:
+    """Contacts of several runs of one system. Made by :func:`kds.contacts_of_replicas`.
+
+    ``runs``
+        :class:`kds.Contacts` of each replica.
+    ``all``
+        occupancy, residence and rates over all replicas, a dictionary. The 95% intervals come from the spread between replicas;
+        they need three of them. An end that does not follow from the data is NaN.
+    ``unit``
+        ``ps`` or ``frames``, the unit of all lengths of time.
+    """
+
+    def __init__(self, runs):
+        if len({(run.unit, run.all["pairs_asked"], *run.names) for run in runs}) != 1:
+            raise InputError("replicas: differ in their elements or in the unit of time; expected several runs of one system")
+        self.runs, self.unit = runs, runs[0].unit
+        self._lines = [_lifetimes.Timeline(run) for run in runs]
+        self.all = _lifetimes.figures([line.counts(0, line.length) for line in self._lines], in_order=False)
+
+    def correlation(self, lags):
+        """Returns the table of :meth:`kds.Contacts.correlation` over all replicas, with intervals from their spread."""
+        return _lifetimes.correlation(lags, self._lines)
+
+    def survival(self, times):
+        """Returns the share of contacts that last longer than these times, of those that begin, with intervals from the spread
+        between replicas, a table."""
+        return _lifetimes.pooled_survival(times, self._lines)
+
+
+@takes("contacts")
+def contacts_of_replicas(replicas, *, cutoff, verbose=False, **options):
+    """Measures how long contacts last in several runs of one system, with intervals from the spread between runs.
+
+    ``replicas`` is a list of inputs of :func:`kds.contacts`, such as paths, and each is a run of its own. The options hold for all
+    of them. Returns :class:`kds.Replicas`. Intervals hold whether or not pairs depend on each other, and also if replicas differ
+    more than one run shows.
+
+    >>> import kds
+    >>> chains = [kds.generate("random-chain", beads=30, frames=20, seed=seed) for seed in (1, 2, 3)]
+    >>> found = kds.contacts_of_replicas(chains, cutoff=2.5, by="bead")
+    >>> found.all["residence_lower"] < found.all["residence"] < found.all["residence_upper"]
+    True
+    """
+    if not isinstance(replicas, (list, tuple)) or len(replicas) == 0:
+        raise InputError("replicas: expected a list with an input for each replica, such as ['a.dcd', 'b.dcd', 'c.dcd']")
+    return Replicas([contacts(one, cutoff=cutoff, verbose=verbose, **options) for one in replicas])
 
 
 class Comparison(Result):
