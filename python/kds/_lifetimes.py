@@ -5,8 +5,8 @@ import numpy as np
 from ._options import InputError, numbers
 from ._tables import table
 
-STRETCHES = 16  # the batches of mean_over_time (experiments/program/mean_interval.h), whose interval this is
-LEAST_REPLICAS = 3  # least_pooled there
+STRETCHES, WAVES = 16, 4
+LEAST_REPLICAS = 3  # as least_pooled of experiments/program/mean_interval.h
 
 
 def student_95(freedom):
@@ -20,23 +20,21 @@ def student_95(freedom):
 def ratio(above, below, in_order):
     """Returns sum(above) / sum(below) over the first axis, and the ends of its 95% interval, which is symmetric for the logarithm.
 
-    Rows are stretches of a run in their order, or replicas. Stretches depend on each other as an autoregressive process of
-    order 1 does. An end that does not follow from the data is NaN.
+    Rows are replicas or, `in_order`, stretches of a run. Stretches depend on each other, but the slowest cosine waves over the run
+    hardly do, so the variance comes from four of them (the equal-weighted cosine test of Lazarus, Lewis, Stock and Watson, 2018).
+    An end that does not follow from the data is NaN.
     """
     count = len(above)
     with np.errstate(divide="ignore", invalid="ignore"):
         value = above.sum(0) / below.sum(0)
         off = count * (above / above.sum(0) - below / below.sum(0))
-        squares = (off**2).sum(0)
-        in_one, freedom = np.ones(np.shape(value)), np.full(np.shape(value), max(count - 1, 1))
         if in_order:
-            found = (off[1:] * off[:-1]).sum(0) / squares
-            correlation = np.nan_to_num(np.clip(found + (1 + 4 * found) / count, 0, 0.999))
-            in_one = (1 + correlation) / (1 - correlation)  # stretches worth an independent one
-            freedom = np.maximum(count / in_one - 1, 1)
-        error = np.sqrt(squares / (count - np.minimum(in_one, count - 1)) * in_one / count)
-        has_interval = (error > 0) & (in_order or count >= LEAST_REPLICAS)
-        factor = np.where(has_interval, np.exp(np.vectorize(student_95, otypes=[float])(freedom) * error), np.nan)
+            waves = np.cos(np.pi * np.outer(np.arange(1, WAVES + 1), (np.arange(count) + 0.5) / count))
+            freedom, variance = WAVES, 2 / count * (np.tensordot(waves, off, 1)**2).mean(0)
+        else:
+            freedom, variance = max(count - 1, 1), (off**2).sum(0) / max(count - 1, 1)
+        has_interval = (variance > 1e-18) & (count >= LEAST_REPLICAS)  # less is rounding of equal rows
+        factor = np.where(has_interval, np.exp(student_95(freedom) * np.sqrt(variance / count)), np.nan)
         return value, value / factor, value * factor
 
 
