@@ -240,7 +240,7 @@ def draw(data, path):
     steps = found.json["survival"]
     left.step([0, *(step["length"] for step in steps)], [1, *(step["survival"] for step in steps)], where="post", color="#b3462f",
               label="survival: still, from the beginning")
-    left.set(xlabel="time t (ps)", ylabel="share of contacts", xlim=(0, 8), ylim=(0, 1), title="water within 3.5 of a peptide's O")
+    left.set(xlabel="time t (ps)", ylabel="share of contacts", xlim=(0, 8), ylim=(0, 1), title="water within 3.5 angstrom of a peptide's O")
     left.legend(frameon=False, fontsize=9)
     for name, style in (("villin, C-alpha", "-"), ("water at a peptide", "--")):
         rows = {row["row"]: row["contacts"] for row in definitions(name, data, STRIDES)}
@@ -248,11 +248,11 @@ def draw(data, path):
             right.plot(STRIDES, [rows[f"{name}, {way}, stride {stride}"] for stride in STRIDES], style, marker="o", markersize=4,
                        color=color, label=f"{name.split(',')[0].split(' ')[0]}, {way}")
     right.set(xscale="log", yscale="log", xlabel="stride (frames)", ylabel="number of contacts", xticks=STRIDES,
-              title="number of contacts by definition", ylim=(30, 1200))
+              title="number of contacts by definition", ylim=(25, 1200))
     right.set_xticks(STRIDES, [str(stride) for stride in STRIDES])
     right.minorticks_off()
     right.set_yticks([50, 100, 200, 500, 1000], ["50", "100", "200", "500", "1000"])
-    right.legend(frameon=False, fontsize=8, ncols=2, loc="lower left")
+    right.legend(frameon=False, fontsize=8, ncols=2, loc="lower left", handlelength=3)
     figure.tight_layout()
     figure.savefig(path, metadata={"Date": None})
     pyplot.close(figure)

@@ -268,7 +268,60 @@ def compare_tables():
             check(f"{name}, cells changed", row["cells_changed"], len(cells[1] - cells[0]))
 
 
+def contact_intervals(frames, cutoff, apart):
+    """Returns for each pair the times in contact on straight paths between frames, an array of beginnings and ends."""
+    found = []
+    for i, j in itertools.combinations(range(frames.shape[1]), 2):
+        if j - i < apart:
+            continue
+        between = frames[:, i] - frames[:, j]
+        start, change = between[:-1], numpy.diff(between, axis=0)
+        a, b, c = (change**2).sum(1), (start * change).sum(1), (start**2).sum(1) - cutoff**2
+        roots = numpy.sqrt(numpy.maximum(b**2 - a * c, 0))
+        first, last = numpy.maximum((-b - roots) / a, 0), numpy.minimum((-b + roots) / a, 1)
+        merged = []
+        for step in numpy.flatnonzero((b**2 > a * c) & (first < last)):
+            if merged and first[step] == 0 and merged[-1][1] == step:
+                merged[-1][1] = step + last[step]
+            else:
+                merged.append([step + first[step], step + last[step]])
+        found.append(merged)
+    return found
+
+
+def compare_lifetimes():
+    """Contacts of C-alpha atoms by three definitions, and their correlation functions from all pairs of intervals."""
+    counts = json.loads((Path(__file__).resolve().parents[1] / "paper" / "lifetimes.json").read_text())
+    calpha = read_dcd(os.path.join(DATA, "trajectories/villin_hp36_300K.dcd"))[:, 1::3]
+    for stride in (1, 4):
+        frames = calpha[::stride]
+        length, lag = stride * (len(frames) - 1), 50
+        inner, outer = ([[(stride * begin, stride * end) for begin, end in pair] for pair in contact_intervals(frames, cutoff, 3)]
+                        for cutoff in (8, 10))
+        bridged = [[] for _ in inner]
+        for all_of_pair, pair in zip(bridged, inner):
+            for begin, end in pair:
+                if all_of_pair and begin - all_of_pair[-1][1] < 5:
+                    begin = all_of_pair.pop()[0]
+                all_of_pair.append((begin, end))
+        dual = [[(min(within), end) for begin, end in wide if (within := [at for at, _ in near if begin <= at <= end])]
+                for near, wide in zip(inner, outer)]
+        for way, pairs in (("one cutoff", inner), ("gap", bridged), ("two cutoffs", dual)):
+            name = f"villin, C-alpha, {way}, stride {stride}"
+            row, every = counts[name], [contact for pair in pairs for contact in pair]
+            time = sum(end - begin for begin, end in every)
+            seen = sum(max(min(end, length - lag) - begin, 0) for begin, end in every)
+            still = sum(max(end - begin - lag, 0) for begin, end in every)
+            again = sum(max(min(end, last) - max(begin, first), 0) for pair in pairs for first, last in pair
+                        for begin, end in ((begin + lag, end + lag) for begin, end in pair))
+            check(f"{name}, contacts", row["contacts"], len(every))
+            ends = sum(end < length for _, end in every)
+            for figure, value in (("residence", time / ends), ("S", still / seen), ("C", again / seen)):
+                check(f"{name}, {figure} is {value}", True, bool(abs(row[figure] / value - 1) < 1e-7))
+
+
 compare_families()
 compare_tables()
+compare_lifetimes()
 print(f"{CHECKS - len(FAILURES)} of {CHECKS} counts agree")
 sys.exit(1 if FAILURES else 0)

@@ -151,11 +151,12 @@ class Manual(unittest.TestCase):
         matplotlib.use("svg")
         files = [ROOT / "data" / "trajectories" / f"{name}{end}" for name in ("enkephalin_water", "ions_chain", "lipids_rod")
                  for end in (".xtc", ".gro")]
-        names = self.run_blocks("residence.md", 6, *((file, file.name) for file in files))
+        names = self.run_blocks("residence.md", 8, *((file, file.name) for file in files))
         times, number = names["coordination"](names["once"].intervals)
         self.assertTrue(np.all(np.diff(times) >= 0))
         self.assertEqual(number[times <= 0].tolist()[-1], names["once"].all["open_at_start"])
         self.assertAlmostEqual(np.sum(number[:-1] * np.diff(times)), names["once"].all["total"], places=6)
+        self.assertEqual([round(float(names["curves"][name][2]), 2) for name in ("continuous", "intermittent")], [0.38, 0.61])
 
     def test_examples_of_the_dual_complex(self):
         try:
