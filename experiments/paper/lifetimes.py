@@ -1,13 +1,14 @@
 """How sure are lifetimes of contacts, and which definition of a contact survives fewer frames?
 
-Coverage: contacts of known rates are made as trajectories, measured by kds.contacts, and compared with the truth. A bead is in or
-out at random. Two beads are in contact while both are in, so pairs that share a bead depend on each other. Definitions: contacts
-with one cutoff, with one cutoff and a gap, and with two cutoffs, each on every s-th frame of the trajectories of the folder data.
-Correlation: C(t), S(t) and the survival of contacts that begin, on the same data. The default form takes two minutes on two cores.
+Coverage: contacts of known rates are made as trajectories, measured by kds.contacts, and compared with the truth. A bead is in
+or out at random. Two beads are in contact while both are in, so pairs that share a bead depend on each other. Definitions:
+contacts with one cutoff, with one cutoff and a gap, and with two cutoffs, each on every s-th frame of the trajectories of the
+folder data. Correlation: C(t), S(t) and the survival of contacts that begin. The default form takes two minutes on two cores.
 """
 
 import warnings
 from concurrent.futures import ProcessPoolExecutor
+from functools import cache
 
 import kds
 import numpy as np
@@ -39,8 +40,8 @@ def switches(random, begin, end, length):
 
 
 class Scene:
-    """Beads that go in and out, and which pairs of them are asked for: those of bead 0 (`site`, which stays in, and `hub`, which
-    does not), or all (`molecule`). Logarithms of rates differ by `spread` between beads, and by `between` between replicas."""
+    """Beads that go in and out, and which pairs of them are asked for: those of bead 0 (`site`, which stays in, and `hub`), or
+    all (`molecule`). Logarithms of rates differ by `spread` between beads, and by `between` between replicas."""
 
     def __init__(self, kind, beads, length, rate=0.1, spread=0.0, anew=False, between=0.0):
         self.kind, self.beads, self.length, self.rate = kind, beads, length, rate
@@ -49,7 +50,8 @@ class Scene:
 
     def rates(self, random):
         """Returns rates of going in and out, (2, beads)."""
-        rates = self.rate * np.exp(self.spread * random.normal(size=(2, self.beads)) + self.between * random.normal(size=(2, 1)))
+        noise = self.spread * random.normal(size=(2, self.beads)) + self.between * random.normal(size=(2, 1))
+        rates = self.rate * np.exp(noise)
         if self.kind == "site":
             rates[:, 0] = 1, 0
         return rates
@@ -165,15 +167,21 @@ def intervals_of_replicas(scene, count, lags, seed):
     yield from intervals_of_curves(found.correlation(list(lags.values())), lags)
 
 
+@cache
+def truth_of(scene):
+    """Returns lags of half, one and two mean lives, and the true figures."""
+    share, end, _ = scene.truth()
+    life = share.sum() / (share * end).sum()
+    lags = {"1/2": life / 2, "1": life, "2": 2 * life}
+    return lags, scene.true_figures(lags)
+
+
 def of_seed(task):
     """Returns for each interval of a run whether it contains the truth. An interval without ends is left out."""
     name, seed = task
     warnings.simplefilter("ignore")
     count, scene = REPLICAS.get(name, (None, SCENES.get(name)))
-    share, end, _ = scene.truth()
-    life = share.sum() / (share * end).sum()
-    lags = {"1/2": life / 2, "1": life, "2": 2 * life}
-    truth = scene.true_figures(lags)
+    lags, truth = truth_of(scene)
     given = intervals_of_run(scene, lags, seed) if count is None else intervals_of_replicas(scene, count, lags, seed)
     return {key: bool(lower <= truth[of] <= upper) for key, of, lower, upper in given
             if lower is not None and upper is not None and np.isfinite([lower, upper]).all()}
@@ -201,8 +209,9 @@ def definitions(name, data, strides):
         for stride in strides:
             found = kds.contacts(data / file, step=stride, strides=[1], **options, **rule)
             curves = found.correlation([lag])
-            yield {"row": f"{name}, {way}, stride {stride}", "contacts": found.all["contacts"], "residence": found.all["residence"],
-                   "median": found.all["median"], "C": float(curves["intermittent"][0]), "S": float(curves["continuous"][0])}
+            yield {"row": f"{name}, {way}, stride {stride}", "contacts": found.all["contacts"],
+                   "residence": found.all["residence"], "median": found.all["median"],
+                   "C": float(curves["intermittent"][0]), "S": float(curves["continuous"][0])}
 
 
 def curves(data, name="water at a peptide", lags=(0.05, 0.1, 0.2, 0.5, 1, 2, 3, 4, 5, 7, 10), cutoffs=1):
@@ -238,15 +247,17 @@ def draw(data, path):
         left.plot(lags, table[column], color=color, label=label)
         left.fill_between(lags, table[f"{column}_lower"], table[f"{column}_upper"], color=color, alpha=0.15, linewidth=0)
     steps = found.json["survival"]
-    left.step([0, *(step["length"] for step in steps)], [1, *(step["survival"] for step in steps)], where="post", color="#b3462f",
-              label="survival: still, from the beginning")
-    left.set(xlabel="time t (ps)", ylabel="share of contacts", xlim=(0, 8), ylim=(0, 1), title="water within 3.5 angstrom of a peptide's O")
+    left.step([0, *(step["length"] for step in steps)], [1, *(step["survival"] for step in steps)], where="post",
+              color="#b3462f", label="survival: still, from the beginning")
+    left.set(xlabel="time t (ps)", ylabel="share of contacts", xlim=(0, 8), ylim=(0, 1),
+             title="water within 3.5 angstrom of a peptide's O")
     left.legend(frameon=False, fontsize=9)
     for name, style in (("villin, C-alpha", "-"), ("water at a peptide", "--")):
         rows = {row["row"]: row["contacts"] for row in definitions(name, data, STRIDES)}
         for way, color in (("one cutoff", "#b3462f"), ("gap", "#c98a1b"), ("two cutoffs", "#1f2933")):
-            right.plot(STRIDES, [rows[f"{name}, {way}, stride {stride}"] for stride in STRIDES], style, marker="o", markersize=4,
-                       color=color, label=f"{name.split(',')[0].split(' ')[0]}, {way}")
+            numbers = [rows[f"{name}, {way}, stride {stride}"] for stride in STRIDES]
+            right.plot(STRIDES, numbers, style, marker="o", markersize=4, color=color,
+                       label=f"{name.split(',')[0].split(' ')[0]}, {way}")
     right.set(xscale="log", yscale="log", xlabel="stride (frames)", ylabel="number of contacts", xticks=STRIDES,
               title="number of contacts by definition", ylim=(25, 1200))
     right.set_xticks(STRIDES, [str(stride) for stride in STRIDES])
@@ -272,8 +283,9 @@ def main():
     for cutoffs in (1, 2):
         contacts, table, survival = curves(data, lags=lags, cutoffs=cutoffs)
         by_renewal = renewal(contacts, lags)
-        found = [{"row": f"water, {cutoffs} cutoffs, lag {lag}", "survival": float(survival[k]), "S": float(table["continuous"][k]),
-                  "S_by_survival": float(by_renewal[k]), "C": float(table["intermittent"][k])} for k, lag in enumerate(lags)]
+        found = [{"row": f"water, {cutoffs} cutoffs, lag {lag}", "survival": float(survival[k]),
+                  "S": float(table["continuous"][k]), "S_by_survival": float(by_renewal[k]),
+                  "C": float(table["intermittent"][k])} for k, lag in enumerate(lags)]
         rows += found
         report.show(list(found[0]), [list(row.values()) for row in found])
     report.finish()

@@ -66,13 +66,13 @@ class Contacts(Result):
         """Returns the correlation functions of contacts at these lags, a table. They are exact for the paths between frames.
 
         ``intermittent`` is C(t): of the pairs that are in contact at a random time, the share that is in contact a lag later.
-        ``continuous`` is S(t): the share that is in contact all the while. Contacts that are open at an end of the run count too.
+        ``continuous`` is S(t): the share that is in contact all the while. Contacts open at an end of the run count too.
         The 95% intervals, such as ``intermittent_lower``, are for another run of the same pairs, as in :meth:`over_time`.
         """
         return _lifetimes.correlation(lags, [_lifetimes.Timeline(self)])
 
     def over_time(self):
-        """Returns occupancy, residence and rates of all pairs with 95% intervals for another run of the same pairs, a dictionary.
+        """Returns occupancy, residence and both rates with 95% intervals for another run of the same pairs, a dictionary.
 
         The intervals come from the spread over 16 stretches of the run and cover any dependence between pairs. Intervals of
         ``all`` are for other pairs and take pairs as independent. Use this method for the pairs of one molecule.
@@ -140,8 +140,8 @@ class Replicas:
         return _lifetimes.correlation(lags, self._lines)
 
     def survival(self, times):
-        """Returns the share of contacts that last longer than these times, of those that begin, with intervals from the spread
-        between replicas, a table."""
+        """Returns the share of the contacts that begin which last longer than these times, a table. Intervals come from the
+        spread between replicas."""
         return _lifetimes.pooled_survival(times, self._lines)
 
 
@@ -149,9 +149,9 @@ class Replicas:
 def contacts_of_replicas(replicas, *, cutoff, verbose=False, **options):
     """Measures how long contacts last in several runs of one system, with intervals from the spread between runs.
 
-    ``replicas`` is a list of inputs of :func:`kds.contacts`, such as paths, and each is a run of its own. The options hold for all
-    of them. Returns :class:`kds.Replicas`. Intervals hold whether or not pairs depend on each other, and also if replicas differ
-    more than one run shows.
+    ``replicas`` is a list of inputs of :func:`kds.contacts`, such as paths, and each is a run of its own. The options hold for
+    all of them. Returns :class:`kds.Replicas`. Intervals hold whether or not pairs depend on each other, and also if replicas
+    differ more than one run shows.
 
     >>> import kds
     >>> chains = [kds.generate("random-chain", beads=30, frames=20, seed=seed) for seed in (1, 2, 3)]

@@ -10,7 +10,7 @@ LEAST_REPLICAS = 3  # as least_pooled of experiments/program/mean_interval.h
 
 
 def student_95(freedom):
-    """Returns the 97.5% quantile of Student's t distribution, whose density is a power of the cosine of arctan(t / sqrt(freedom))."""
+    """Returns the 97.5% quantile of Student's t. The density of arctan(t / sqrt(freedom)) is a power of its cosine."""
     angle = np.linspace(0, np.pi / 2, 20001)
     density = np.cos(angle)**(freedom - 1)
     mass = np.cumsum(density[1:] + density[:-1])
@@ -18,10 +18,11 @@ def student_95(freedom):
 
 
 def ratio(above, below, in_order):
-    """Returns sum(above) / sum(below) over the first axis, and the ends of its 95% interval, which is symmetric for the logarithm.
+    """Returns sum(above) / sum(below) over the first axis, and the ends of its 95% interval, symmetric for the logarithm.
 
-    Rows are replicas or, `in_order`, stretches of a run. Stretches depend on each other, but the slowest cosine waves over the run
-    hardly do, so the variance comes from four of them (the equal-weighted cosine test of Lazarus, Lewis, Stock and Watson, 2018).
+    Rows are replicas or, `in_order`, stretches of a run. Stretches depend on each other, but the slowest cosine waves over the
+    run hardly do, so the variance comes from four of them (the equal-weighted cosine test of Lazarus, Lewis, Stock and Watson,
+    2018).
     An end that does not follow from the data is NaN.
     """
     count = len(above)
@@ -39,7 +40,7 @@ def ratio(above, below, in_order):
 
 
 class Timeline:
-    """The contacts of a run in times from 0 to ``length``. Each pair has a stretch of one line, so that all are looked up at once."""
+    """The contacts of a run in times from 0 to ``length``. Each pair has a place on one line, so one look-up serves all."""
 
     def __init__(self, found):
         rows, clock = found.intervals, "time" if found.unit == "ps" else "frame"

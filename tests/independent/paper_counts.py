@@ -296,8 +296,8 @@ def compare_lifetimes():
     for stride in (1, 4):
         frames = calpha[::stride]
         length, lag = stride * (len(frames) - 1), 50
-        inner, outer = ([[(stride * begin, stride * end) for begin, end in pair] for pair in contact_intervals(frames, cutoff, 3)]
-                        for cutoff in (8, 10))
+        inner, outer = ([[(stride * begin, stride * end) for begin, end in pair]
+                         for pair in contact_intervals(frames, cutoff, 3)] for cutoff in (8, 10))
         bridged = [[] for _ in inner]
         for all_of_pair, pair in zip(bridged, inner):
             for begin, end in pair:
