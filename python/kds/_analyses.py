@@ -67,7 +67,8 @@ class Contacts(Result):
 
         ``intermittent`` is C(t): of the pairs that are in contact at a random time, the share that is in contact a lag later.
         ``continuous`` is S(t): the share that is in contact all the while. Contacts open at an end of the run count too.
-        The 95% intervals, such as ``intermittent_lower``, are for another run of the same pairs, as in :meth:`over_time`.
+        The 95% intervals, such as ``intermittent_lower``, are for another run of the same pairs, as in :meth:`over_time`. Lags
+        above half of the run have none.
         """
         return _lifetimes.correlation(lags, [_lifetimes.Timeline(self)])
 

@@ -21,9 +21,8 @@ def ratio(above, below, in_order):
     """Returns sum(above) / sum(below) over the first axis, and the ends of its 95% interval, symmetric for the logarithm.
 
     Rows are replicas or, `in_order`, stretches of a run. Stretches depend on each other, but the slowest cosine waves over the
-    run hardly do, so the variance comes from four of them (the equal-weighted cosine test of Lazarus, Lewis, Stock and Watson,
-    2018).
-    An end that does not follow from the data is NaN.
+    run hardly do. So the variance comes from four of them: the equal-weighted cosine test of Lazarus, Lewis, Stock and Watson
+    (2018). An end that does not follow from the data is NaN.
     """
     count = len(above)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -106,6 +105,8 @@ def correlation(lags, runs):
     columns = {"lag": lags}
     for name, above in (("intermittent", both), ("continuous", throughout)):
         value, lower, upper = ratio(above, on, len(runs) == 1)
+        if len(runs) == 1:  # random times of a longer lag lie too close together to show a spread
+            lower, upper = (np.where(lags <= runs[0].length / 2, end, np.nan) for end in (lower, upper))
         columns.update({name: value, f"{name}_lower": lower, f"{name}_upper": np.minimum(upper, 1)})
     return table(columns)
 

@@ -42,6 +42,8 @@ class Correlation(unittest.TestCase):
             self.assertAlmostEqual(table["continuous"][k], throughout.sum() / earlier.sum(), delta=0.01)
         self.assertAlmostEqual(table["intermittent"][0], 1)
         self.assertTrue(np.isnan(table["intermittent_lower"][0]))
+        upper = found.correlation([10, 19.4, 19.6, 30])["intermittent_upper"]
+        self.assertEqual(np.isfinite(upper).tolist(), [True, True, False, False])
 
     def test_times_and_frames_agree(self):
         options = {"topology": PDB, "select": "ca", "cutoff": 8, "start": 30, "stop": 150, "step": 3}
