@@ -89,7 +89,9 @@ template <int D>
 bool Spanner<D>::hold(Guard& guard, Length length, int level, std::array<BeadId, 2> beads, int wanted) {
   if (guard.handle != none) return true;
   if (building_) return wanted * sign(length, level, beads[0], beads[1]) >= 0;
-  guard = {table(length, level).watch({beads, wanted}, 0), length, level};
+  const bool is_negated = failed_ && *failed_ == Failed{length, level, key_of(beads[0], beads[1]), -wanted};
+  const KnownAtStart birth = is_negated ? KnownAtStart::at_own_root : KnownAtStart::unknown;
+  guard = {table(length, level).watch({beads, wanted}, 0, birth), length, level};
   if (guard.handle == none) return false;
   for (const BeadId bead : beads)
     statistics.certificates.per_bead_max =
@@ -479,6 +481,8 @@ void Spanner<D>::fail(unsigned table_number, std::uint32_t slot) {
   const DistanceBeyond failed = tables_[table_number]->certificate(slot);
   const auto [a, b] = failed.beads;
   const bool is_scale = table_number % 2 == 1;
+  failed_ = Failed{is_scale ? Length::scale : Length::reach, static_cast<int>(table_number / 2), key_of(a, b),
+                   failed.sign};
   if (is_scale && !failed.side()) {
     for (const BeadId bead : failed.beads)
       if (nodes_[bead].parent == (bead == a ? b : a)) forget(nodes_[bead].cover, failed.beads);
@@ -492,6 +496,7 @@ void Spanner<D>::fail(unsigned table_number, std::uint32_t slot) {
       certify(pair);
   }
   resolve();
+  failed_.reset();
 }
 
 template <int D>

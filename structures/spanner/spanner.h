@@ -123,6 +123,15 @@ class Spanner final : public EditableBase {
     int lowest;
   };
 
+  /// A certificate that has failed at the present time.
+  struct Failed {
+    Length length{};
+    int level = 0;
+    Key beads = 0;
+    int sign = 0;
+    friend bool operator==(const Failed&, const Failed&) = default;
+  };
+
   [[nodiscard]] static Key key_of(BeadId a, BeadId b) {
     return a < b ? (Key{a} << 32U) | b : (Key{b} << 32U) | a;
   }
@@ -188,8 +197,9 @@ class Spanner final : public EditableBase {
   std::unordered_map<Key, Pair> pairs_;
   std::map<Key, Before> before_;  // of pairs that the present event may have changed
   std::vector<std::array<BeadId, 2>>
-      broken_;                // beads of certificates that do not hold and are not yet repaired
-  BeadId leaving_ = no_bead;  // a centre whose children take other parents
+      broken_;                    // beads of certificates that do not hold and are not yet repaired
+  std::optional<Failed> failed_;  // the event that is being handled
+  BeadId leaving_ = no_bead;      // a centre whose children take other parents
   bool building_ = false;
   bool knows_pairs_ = false;          // not after changes from a log, which names edges only
   std::vector<std::uint32_t> named_;  // the number of certificates on each bead
