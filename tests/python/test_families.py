@@ -1,9 +1,12 @@
 """What experiments/paper counts of balls at rest, compared with slow twins that follow the definitions."""
 
+import importlib.util
 import itertools
 import math
 import os
+import sys
 import unittest
+from pathlib import Path
 
 import kds
 import kds.reading
@@ -72,8 +75,9 @@ class Tree:
                 return family
             nodes = [half for node in nodes for half in self.halves(node)]
 
-    def smallest(self):
-        """The least number of products of disjoint nodes that cover each pair of disjoint beads once, by trying all."""
+    def smallest(self, overlaps=False):
+        """The least number of products of disjoint nodes that cover each pair of disjoint beads, by trying all: once, or with
+        overlaps at least once."""
         asked = frozenset(pair for pair in itertools.combinations(range(self.beads), 2)
                           if pair[1] - pair[0] >= 2 and self.are_apart(*((bead, bead) for bead in pair)))
         products = [frozenset(itertools.product(range(a[0], a[1] + 1), range(b[0], b[1] + 1)))
@@ -87,7 +91,7 @@ class Tree:
                 best = min(best, used)
             elif used + 1 < best:
                 for product in products:
-                    if min(left) in product and product <= left:
+                    if min(left) in product and (overlaps or product <= left):
                         cover(left - product, used + 1)
 
         cover(asked, 0)
@@ -119,6 +123,21 @@ class Families(unittest.TestCase):
             self.assertEqual(smallest, Tree(centers).smallest(), (beads, seed))
             below_the_search += smallest < found
         self.assertGreater(below_the_search, 2)
+
+    @unittest.skipUnless(importlib.util.find_spec("scipy"), "scipy is not installed")
+    def test_the_linear_program_bounds_all_families(self):
+        sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "experiments" / "paper"))
+        import families
+
+        saved_by_overlaps = 0
+        for beads, seed in itertools.product((5, 6, 7, 8), range(10, 35)):
+            centers = chain(beads, seed)
+            least, without = (Tree(centers).smallest(overlaps) for overlaps in (True, False))
+            bound, attained, _ = families.bounds(centers)
+            self.assertEqual((bound, attained), (least, least), (beads, seed))
+            self.assertLessEqual(families.bound_by_place(centers), bound)
+            saved_by_overlaps += least < without
+        self.assertGreater(saved_by_overlaps, 2)
 
     def test_refuses_what_the_theorem_does_not_cover(self):
         gap = np.array([[0, 0, 0], [2, 0, 0], [5, 0, 0], [7, 0, 0]])
