@@ -1,13 +1,15 @@
 """Recomputes counts of `kds collide` and of tests/paper with numpy. No code is shared with kds.
 
 Usage: paper_counts.py KDS DATA FOLDER. Exit code 77 (skipped) if numpy is not installed. Without scipy, which
-computes Delaunay triangulations, the counts of cells and edges are left out.
+computes Delaunay triangulations and solves linear programs, counts of cells and edges and bounds of families are
+left out.
 
 Smallest spheres are found by pivoting: the farthest bead joins the basis, and a trial of all subsets gives the
 next basis. Families are checked by their definition, by a matrix over all pairs of beads.
 """
 import itertools
 import json
+import math
 import os
 import subprocess
 import sys
@@ -19,10 +21,12 @@ except Exception as error:  # a package may be installed and broken
     print(f"skipped: numpy cannot be imported ({error})")
     sys.exit(77)
 try:
+    from scipy.optimize import linprog
+    from scipy.sparse import csc_matrix
     from scipy.spatial import Delaunay
 except Exception as error:
-    Delaunay = None
-    print(f"left out: cells and edges, because scipy cannot be imported ({error})")
+    Delaunay = linprog = None
+    print(f"left out: cells, edges and bounds of families, because scipy cannot be imported ({error})")
 
 KDS, DATA, FOLDER = sys.argv[1:4]
 os.makedirs(FOLDER, exist_ok=True)
@@ -154,9 +158,10 @@ def tree_over(points, radius, layered=False):
     return Node(points, 0, len(points) - 1, radius, layered)
 
 
-def separating_pairs(root, apart):
-    """Splits the node with more beads, and the first of two equal ones. Leaves out pairs nearer than `apart`."""
-    pairs, waiting = [], [(root, root)]
+def separating_pairs(root, apart, other=None):
+    """Splits the node with more beads, and the first of two equal ones. Leaves out pairs nearer than `apart`. `other` is the
+    root of a second necklace: then only pairs between the two are asked about."""
+    pairs, waiting = [], [(root, other or root)]
     while waiting:
         u, v = waiting.pop()
         if u is v:
@@ -320,8 +325,75 @@ def compare_lifetimes():
                 check(f"{name}, {figure} is {value}", True, bool(abs(row[figure] / value - 1) < 1e-7))
 
 
+def compare_spirals():
+    """Sets between two spirals, the second one shifted across the plane until the nearest beads are a gap apart."""
+    counts = json.loads((Path(__file__).resolve().parents[1] / "paper/spirals.json").read_text())
+    for stage, step in (("extended", 1), ("half rolled", 500), ("rolled", 1000)):
+        points = spiral(1000, 18, 0.001 + 0.999 * step / 1000)
+        for gap in (0, 8, 64, 512):
+            moved = points + [0, 0, 2 + gap]
+            for kind in ("wrapped", "layered"):
+                roots = [tree_over(places, 0.0, kind == "layered") for places in (points, moved)]
+                row = f"{stage}, stacked, gap {gap}"
+                found = len(separating_pairs(roots[0], -1000, roots[1]))
+                check(f"spirals, {row}, {kind} set", counts[row][f"{kind}_pairs"], found)
+
+
+def smallest_without_overlaps(u, v, known):
+    """Returns the least number of pairs of disjoint nodes that cover each pair of beads of two nodes once."""
+    if u is v:
+        return sum(smallest_without_overlaps(a, b, known) for a, b in itertools.combinations_with_replacement(u.children, 2))
+    key = u.first, u.last, v.first, v.last
+    if v.last - u.first < 2 or key in known:
+        return known.get(key, 0)
+    if numpy.linalg.norm(u.center - v.center) > u.radius + v.radius:
+        known[key] = 1
+    else:
+        splits = [[(child, v) for child in u.children], [(u, child) for child in v.children]]
+        sizes = [sum(smallest_without_overlaps(*pair, known) for pair in split) for split in splits if split]
+        known[key] = min(sizes, default=0)
+    return known[key]
+
+
+def smallest_by_program(root, points, radius, by_place):
+    """Returns the least sum of weights of pairs of disjoint nodes. Those over two disjoint beads sum to 1 or more."""
+    count = len(points)
+    nodes = [*root.nodes(), *(Node(points, bead, bead, radius, False) for bead in range(count))]
+    apart = numpy.linalg.norm(points[:, None] - points[None, :], axis=2) > 2 * radius
+    asked = numpy.triu(apart, 2).ravel()
+    beads = numpy.arange(count)
+    held = [numpy.linalg.norm(points - node.center, axis=1) + radius <= node.radius * (1 + 1e-12) if by_place
+            else (beads >= node.first) & (beads <= node.last) for node in nodes]
+    columns = []
+    for (u, in_u), (v, in_v) in itertools.combinations(zip(nodes, held), 2):
+        if numpy.linalg.norm(u.center - v.center) > u.radius + v.radius:
+            both = numpy.outer(in_u, in_v)
+            columns.append(numpy.flatnonzero((both | both.T).ravel()[asked]))
+    starts = numpy.cumsum([0, *map(len, columns)])
+    matrix = csc_matrix((numpy.ones(starts[-1]), numpy.concatenate(columns), starts), (int(asked.sum()), len(columns)))
+    return linprog(numpy.ones(len(columns)), -matrix, -numpy.ones(matrix.shape[0]), method="highs").fun
+
+
+def compare_bounds():
+    """Families of a small protein: found, smallest without overlaps, and bounds by a program of all pairs of nodes."""
+    counts = json.loads((Path(__file__).resolve().parents[1] / "paper/families.json").read_text())
+    points = read_backbone(os.path.join(DATA, "proteins/1l2y.pdb"))
+    radius = half_longest_bond(points) * (1 + 1e-12)
+    for kind in ("wrapped", "layered"):
+        root = tree_over(points, radius, kind == "layered")
+        expected = counts[f"protein, 1l2y, 60 beads, {kind}"]
+        check(f"families of 1l2y, {kind}, found", expected["found"], len(separating_pairs(root, 2)))
+        check(f"families of 1l2y, {kind}, without overlaps", expected["without_overlaps"],
+              smallest_without_overlaps(root, root, {}))
+        for name, by_place in (("bound", False), ("bound_by_place", True)) if linprog else ():
+            least = smallest_by_program(root, points, radius, by_place)
+            check(f"families of 1l2y, {kind}, {name}", expected[name], math.ceil(least - 1e-6))
+
+
 compare_families()
 compare_tables()
 compare_lifetimes()
+compare_spirals()
+compare_bounds()
 print(f"{CHECKS - len(FAILURES)} of {CHECKS} counts agree")
 sys.exit(1 if FAILURES else 0)
