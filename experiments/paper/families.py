@@ -173,23 +173,23 @@ def draw(rows, path):
     pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})
     figure, (sizes, savings) = pyplot.subplots(1, 2, figsize=(10, 4.4))
     for kind, color in zip(dict.fromkeys(row["kind"] for row in rows), COLORS):
-        of_kind = sorted((row for row in rows if row["kind"] == kind), key=lambda row: row["beads"])
-        for hierarchy, line in (("wrapped", "-"), ("layered", ":")):
-            of_tree = [row for row in of_kind if row["hierarchy"] == hierarchy]
-            beads, bound, found, without = (np.array([row[name] for row in of_tree], float)
+        for hierarchy, face in (("wrapped", color), ("layered", "white")):
+            of_kind = [row for row in rows if (row["kind"], row["hierarchy"]) == (kind, hierarchy)]
+            beads, bound, found, without = (np.array([row[name] for row in of_kind], float)
                                             for name in ("beads", "bound", "found", "without_overlaps"))
-            savings.plot(beads, 100 * (without / bound - 1), line, marker="o", color=color, markersize=4,
-                         markerfacecolor=color if line == "-" else "white", label=kind if line == "-" else None)
-            if line == "-":
-                sizes.plot(beads, bound, "-", marker="o", color=color, markersize=4, label=kind)
-                sizes.plot(beads, found, "--", marker="^", color=color, markersize=5, markerfacecolor="white")
+            savings.plot(beads, 100 * (without / bound - 1), "o", color=color, markerfacecolor=face, markersize=5)
+            if hierarchy == "wrapped":
+                sizes.plot(beads, bound, "o", color=color, markersize=5, label=kind)
+                sizes.plot(beads, found, "^", color=color, markersize=5, markerfacecolor="white")
     sizes.set(xscale="log", yscale="log", xlabel="beads", ylabel="pairs of spheres, wrapped hierarchy",
               title="smallest of all (dots), found by the search (triangles)")
     savings.set(xscale="log", xlabel="beads", ylabel="excess over the smallest of all (%)",
                 title="smallest without overlaps: wrapped (full), layered (open)")
     for axes in (sizes, savings):
+        axes.xaxis.set_major_formatter("{x:g}")
         axes.spines[["top", "right"]].set_visible(False)
         axes.title.set_fontsize(10)
+    sizes.yaxis.set_major_formatter("{x:g}")
     sizes.legend(frameon=False, fontsize=9)
     figure.tight_layout()
     figure.savefig(path, metadata={"Date": None})
