@@ -77,13 +77,14 @@ def bound_between(left, right):
     codes = np.zeros((nodes[0, 1] + 1, others[0, 1] + 1), np.uint64)  # equal where the same rectangles cover pairs of beads
     for rectangle, code in zip(rectangles, np.random.default_rng(1).integers(2**63, size=len(pairs), dtype=np.uint64)):
         codes[rectangle] += code
+    codes[-1, 0] = 0  # these two beads are neighbours, which a family need not cover
     if not len(pairs):
         return 0, 0, margin
-    _, places, rows = np.unique(codes, return_index=True, return_inverse=True)
+    kinds, places, rows = np.unique(codes, return_index=True, return_inverse=True)
     rows = rows.reshape(codes.shape)
     covered = [np.unique(rows[rectangle]) for rectangle in rectangles]
     matrix = rows_of_sets(covered, len(places))
-    used = np.unique(matrix.indices)
+    used = np.flatnonzero(kinds)
     solved = linprog(-np.ones(len(used)), matrix[:, used], np.ones(len(pairs)), method="highs")
     weights = np.zeros(codes.size, np.int64)
     weights[places[used]] = np.rint(np.maximum(solved.x, 0) * UNIT)
@@ -93,7 +94,7 @@ def bound_between(left, right):
     taken, reached = np.flatnonzero(-solved.ineqlin.marginals > 1e-6), np.zeros(codes.shape, bool)
     for k in taken:
         reached[rectangles[k]] = True
-    if not (reached == (codes > 0)).all():
+    if not reached[codes > 0].all():
         raise ArithmeticError("the solution of the linear program is no family")
     return -(-int(weights.sum()) // int(most)), len(taken), margin
 

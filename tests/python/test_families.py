@@ -130,11 +130,11 @@ class Families(unittest.TestCase):
         import families
 
         saved_by_overlaps = 0
-        for beads, seed in itertools.product((5, 6, 7, 8), range(10, 35)):
-            centers = chain(beads, seed)
+        for beads, seed, stretched in itertools.product((6, 7), range(10, 35), (1, 1.2)):
+            centers = stretched * chain(beads, seed)  # neighbours meet, or do not
             least, without = (Tree(centers).smallest(overlaps) for overlaps in (True, False))
             bound, attained, _ = families.bounds(centers)
-            self.assertEqual((bound, attained), (least, least), (beads, seed))
+            self.assertEqual((bound, attained), (least, least), (beads, seed, stretched))
             self.assertLessEqual(families.bound_by_place(centers), bound)
             saved_by_overlaps += least < without
         self.assertGreater(saved_by_overlaps, 2)
