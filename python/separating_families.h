@@ -38,7 +38,7 @@
 // no product crosses the halves of u, or none crosses the halves of v, and the partition arises from
 // splittings. The smallest family of u x v thus has one pair if the spheres are disjoint, and otherwise as
 // many as the better of the two splittings: dynamic programming over pairs of nodes. A family that covers
-// some pairs twice, which the paper allows, may be smaller: experiments/paper/families.py bounds all families.
+// some pairs twice, which the paper allows, may be smaller: experiments/paper/families.py bounds all of them.
 
 #include <cstdint>
 
