@@ -1,10 +1,17 @@
 #include "python/timing.h"
 
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -12,14 +19,22 @@
 
 #include "experiments/program/timing.h"
 #include "motions/base/input_error.h"
+#include "motions/frames/trajectory.h"
+#include "motions/scene/scene.h"
 #include "python/arrays.h"
 #include "python/balls_given.h"
 #include "python/watch.h"
+#include "structures/collision/auto_detector.h"
+#include "structures/collision/balls_meet.h"
+#include "structures/collision/box_tree.h"
+#include "structures/collision/cell_list.h"
 #include "structures/collision/hierarchy_search.h"
+#include "structures/collision/sphere_tree.h"
 #include "structures/dual_complex/union_measures.h"
 #include "structures/hierarchy/layered_hierarchy.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
 #include "structures/necklace/balls.h"
+#include "structures/session/kinetic_run.h"
 #include "structures/triangulation/static_build.h"
 #include "structures/triangulation/static_dual_complex.h"
 
@@ -54,7 +69,7 @@ auto released(Compute compute) {
 }
 
 struct Work {
-  const char* name;
+  std::string name;
   std::function<double()> seconds;
 };
 template <class Repeated>
@@ -69,7 +84,8 @@ py::dict timed_in_turn(std::size_t rounds, const std::vector<Work>& works) {
   std::vector<std::vector<double>> seconds(works.size());
   if (rounds > 0) seconds = released([&] { return seconds_in_turn(rounds, functions); });
   py::dict times;
-  for (std::size_t i = 0; i < works.size(); ++i) times[works[i].name] = array_of(std::move(seconds[i]));
+  for (std::size_t i = 0; i < works.size(); ++i)
+    times[py::str(works[i].name)] = array_of(std::move(seconds[i]));
   return times;
 }
 
@@ -360,6 +376,228 @@ py::dict updates_between(const Numbers& before, const Numbers& after, std::size_
   return found;
 }
 
+// Frames of a chain of balls in space. A work is timed over all steps at once, because a step may take less
+// than a reading of the clock. Its time includes that of bringing the frames in.
+class MovingChain {
+ public:
+  MovingChain(const std::vector<Numbers>& given, double radius) {
+    if (given.size() < 2) throw InputError("frames: has fewer than two frames");
+    Trajectory trajectory;
+    trajectory.file = "frames";
+    for (const Numbers& frame : given) {
+      if (frame.ndim() != 2 || frame.shape(1) != 3)
+        throw InputError("frames: expected the shape (frames, beads, 3)");
+      trajectory.frames.push_back(points_given("frames", frame, 2));
+    }
+    radii.assign(static_cast<std::size_t>(given[0].shape(0)), radius);
+    necklaces = one_necklace(given[0]);
+    scene.emplace(std::span(&trajectory, 1), radii);
+    if (scene->dimension() != 3) throw InputError("frames: all beads lie in one plane");
+    frames = std::move(trajectory.frames);
+  }
+
+  /// Calls look(balls) at each stride-th frame. The first frame comes before the time is taken.
+  template <class Look>
+  [[nodiscard]] Work at_frames(std::string name, Look look, std::size_t stride = 1) const {
+    return {std::move(name), [this, look, stride] {
+              Balls<3> balls(frames[0], radii);
+              look(balls);
+              return processor_seconds_of([&] {
+                for (std::size_t frame = stride; frame < frames.size(); frame += stride) {
+                  balls.move_to(frames[frame]);
+                  look(balls);
+                }
+              });
+            }};
+  }
+  [[nodiscard]] Work run(std::string name, std::string structure,
+                         const StructureSettings& settings = {}) const {
+    const KineticRunOptions options{.structures = {std::move(structure)}, .settings = settings};
+    return {std::move(name), [this, options] {
+              KineticRun run(*scene, options);
+              run.build();
+              return processor_seconds_of([&] { run.run(); });
+            }};
+  }
+
+  std::vector<Eigen::Matrix3Xd> frames;
+  std::vector<double> radii;
+  std::vector<BeadRange> necklaces;
+  std::optional<Scene> scene;
+};
+
+// Axis-aligned boxes over the balanced tree of a chain. A refit computes all boxes again, children first.
+class AxisBoxes {
+ public:
+  explicit AxisBoxes(const std::vector<BeadRange>& necklaces)
+      : tree_(necklaces, 3), boxes_(tree_.nodes().size()) {}
+
+  void refit(const Balls<3>& balls) {
+    for (std::size_t k = boxes_.size(); k-- > 0;) {
+      const TreeBox& node = tree_.nodes()[k];
+      if (node.is_bead()) {
+        const BallRow<3>& ball = balls.rows()[node.first];
+        const Eigen::Array3d center = Eigen::Map<const Eigen::Array3d>(ball.center.data());
+        boxes_[k] = {(center - ball.radius).matrix(), (center + ball.radius).matrix()};
+      } else {
+        boxes_[k] = boxes_[node.left].merged(boxes_[node.right]);
+      }
+    }
+  }
+  /// Returns the pairs of beads that meet and are at least `apart` along the chain.
+  const std::vector<BeadPair>& pairs(const Balls<3>& balls, std::size_t apart) {
+    pairs_.clear();
+    waiting_ = {{0, 0}};
+    while (!waiting_.empty()) {
+      const auto [i, j] = waiting_.back();
+      waiting_.pop_back();
+      const TreeBox &a = tree_.nodes()[i], &b = tree_.nodes()[j];
+      if (b.last - a.first < apart) continue;
+      if (i == j) {
+        waiting_.insert(waiting_.end(), {{a.left, a.left}, {a.right, a.right}, {a.left, a.right}});
+      } else if (!boxes_[i].intersects(boxes_[j])) {
+        continue;
+      } else if (a.is_bead() && b.is_bead()) {
+        if (balls_meet(balls, a.first, b.first)) pairs_.push_back({a.first, b.first});
+      } else if (a.last - a.first >= b.last - b.first) {
+        waiting_.insert(waiting_.end(), {{a.left, j}, {a.right, j}});
+      } else {
+        waiting_.insert(waiting_.end(), {{i, b.left}, {i, b.right}});
+      }
+    }
+    return pairs_;
+  }
+
+ private:
+  BoxTree<3> tree_;  // its nodes only
+  std::vector<Eigen::AlignedBox3d> boxes_;
+  std::vector<std::array<std::uint32_t, 2>> waiting_;
+  std::vector<BeadPair> pairs_;
+};
+
+py::dict hierarchy_steps(const std::vector<Numbers>& frames, double radius, std::size_t rounds) {
+  const MovingChain chain(frames, radius);
+  StaticWrappedHierarchy<3> wrapped(chain.necklaces), updated(chain.necklaces);
+  updated.build(Balls<3>(chain.frames[0], chain.radii));
+  LayeredHierarchy<3> layered(chain.necklaces);
+  AxisBoxes boxes(chain.necklaces);
+  return timed_in_turn(
+      rounds, {chain.run("events", "wrapped"), chain.run("chords", "wrapped", {.between = Between::chord}),
+               chain.run("tight_chords", "wrapped", {.between = Between::chord, .tightness = 0.01}),
+               chain.run("layered_chords", "layered"), chain.run("box_events", "boxes"),
+               chain.at_frames("updated", [&](const Balls<3>& balls) { updated.update(balls); }),
+               chain.at_frames("rebuilt", [&](const Balls<3>& balls) { wrapped.build(balls); }),
+               chain.at_frames("layered", [&](const Balls<3>& balls) { layered.build(balls); }),
+               chain.at_frames("boxes", [&](const Balls<3>& balls) { boxes.refit(balls); })});
+}
+
+// Finds the times at which contacts begin and end on straight paths, in doubles and without events. Beads
+// that meet within a step are at its start at most twice the largest displacement farther apart.
+class PathContacts {
+ public:
+  using Near = std::function<std::span<const BeadPair>(const Balls<3>&, double gap)>;
+  explicit PathContacts(Near near) : near_(std::move(near)) {}
+
+  void follow(const MovingChain& chain) {
+    begins_ = ends_ = 0;
+    Balls<3> balls(chain.frames[0], chain.radii);
+    for (std::size_t frame = 1; frame < chain.frames.size(); ++frame) {
+      const Eigen::Matrix3Xd &before = chain.frames[frame - 1], &after = chain.frames[frame];
+      const double moved = std::sqrt((after - before).colwise().squaredNorm().maxCoeff());
+      times_.clear();
+      for (const BeadPair& pair : near_(balls, 2 * moved * (1 + 1e-12)))
+        find(pair, before.col(pair.second) - before.col(pair.first),
+             after.col(pair.second) - after.col(pair.first), 2 * chain.radii[0]);
+      std::sort(times_.begin(), times_.end());
+      balls.move_to(after);
+    }
+  }
+  [[nodiscard]] std::array<std::size_t, 2> begins_and_ends() const { return {begins_, ends_}; }
+
+ private:
+  // The squared distance less that of a contact is a u^2 + 2 b u + c.
+  void find(const BeadPair& pair, const Eigen::Vector3d& before, const Eigen::Vector3d& after, double reach) {
+    const Eigen::Vector3d moved = after - before;
+    const double a = moved.squaredNorm(), b = before.dot(moved), c = before.squaredNorm() - reach * reach;
+    const bool meet_before = c <= 0, meet_after = a + 2 * b + c <= 0;
+    if (meet_before ? meet_after : b >= 0 || b * b < a * c) return;
+    const double root = std::sqrt(b * b - a * c), begin = c / (root - b);
+    if (!meet_before && begin > 1) return;
+    if (!meet_before) times_.emplace_back(begin, pair), ++begins_;
+    if (!meet_after) times_.emplace_back(b > 0 ? -c / (root + b) : (root - b) / a, pair), ++ends_;
+  }
+
+  Near near_;
+  std::vector<std::pair<double, BeadPair>> times_;
+  std::size_t begins_ = 0, ends_ = 0;
+};
+
+py::dict contact_steps(const std::vector<Numbers>& frames, double radius, std::size_t apart,
+                       const std::vector<std::size_t>& strides, std::size_t rounds) {
+  const MovingChain chain(frames, radius);
+  const PairsAsked asked{chain.necklaces, true, static_cast<BeadId>(apart), true};
+  CellList<3> cells(asked), cells_of_paths(asked);
+  VerletList<3> verlet(asked, radius);
+  AutoDetector<3> kept(asked), blocks(asked), blocks_of_paths(asked);
+  SphereTree<3> wrapped(Hierarchy::wrapped, chain.necklaces), layered(Hierarchy::layered, chain.necklaces);
+  AxisBoxes boxes(chain.necklaces);
+  const auto search = [&](SphereTree<3>& tree) {
+    return [&](const Balls<3>& balls) {
+      tree.build(balls);
+      return find_pairs(tree, asked).pairs.size();
+    };
+  };
+  const std::vector<std::pair<std::string, std::function<std::size_t(const Balls<3>&)>>> methods{
+      {"cells", [&](const Balls<3>& balls) { return cells.pairs(balls).size(); }},
+      {"verlet", [&](const Balls<3>& balls) { return verlet.pairs(balls).size(); }},
+      {"auto", [&](const Balls<3>& balls) { return kept.pairs(balls).size(); }},
+      {"blocks",
+       [&](const Balls<3>& balls) {
+         blocks.forget();
+         return blocks.pairs(balls).size();
+       }},
+      {"wrapped", search(wrapped)},
+      {"layered", search(layered)},
+      {"boxes", [&](const Balls<3>& balls) {
+         boxes.refit(balls);
+         return boxes.pairs(balls, apart).size();
+       }}};
+  PathContacts paths(
+      [&](const Balls<3>& balls, double gap) { return cells_of_paths.near_pairs(balls, gap); });
+  PathContacts block_paths([&](const Balls<3>& balls, double gap) -> std::span<const BeadPair> {
+    return blocks_of_paths.pairs_within(balls, gap);
+  });
+  std::optional<std::size_t> pairs;  // of all frames
+  released([&] {
+    for (const auto& [name, count] : methods) {
+      std::size_t found = 0;
+      static_cast<void>(
+          chain.at_frames(name, [&](const Balls<3>& balls) { found += count(balls); }).seconds());
+      if (found != pairs.value_or(found)) throw std::logic_error(name + " finds other pairs");
+      pairs = found;
+    }
+    paths.follow(chain);
+    block_paths.follow(chain);
+    if (paths.begins_and_ends() != block_paths.begins_and_ends())
+      throw std::logic_error("paths have other contacts");
+    return 0;
+  });
+  StructureSettings settings;
+  settings.apart = asked.apart;
+  std::vector<Work> works{
+      chain.run("events", "contacts", settings),
+      {"paths", [&] { return processor_seconds_of([&] { paths.follow(chain); }); }},
+      {"block_paths", [&] { return processor_seconds_of([&] { block_paths.follow(chain); }); }}};
+  for (const auto& [name, count] : methods)
+    for (const std::size_t stride : strides)
+      works.push_back(chain.at_frames(fmt::format("{}_{}", name, stride), count, stride));
+  py::dict found = timed_in_turn(rounds, works);
+  found["pairs"] = *pairs;
+  found["begins"] = paths.begins_and_ends()[0];
+  found["ends"] = paths.begins_and_ends()[1];
+  return found;
+}
+
 }  // namespace
 
 void bind_timing(py::module_& module) {
@@ -383,6 +621,8 @@ void bind_timing(py::module_& module) {
                  return updates_between<dimension>(before, after, first, rounds);
                });
              });
+  module.def("time_hierarchy_steps", hierarchy_steps);
+  module.def("time_contact_steps", contact_steps);
 }
 
 }  // namespace kds::python

@@ -85,3 +85,38 @@ def updates_between(before, after, first, *, rounds=5):
     """
     return _kds.time_updates_between(plain("before", before), plain("after", after), whole("first", first, 2),
                                      whole("rounds", rounds, 0))
+
+
+def hierarchy_steps(frames, radius, *, rounds=5):
+    """Times bounding hierarchies of a chain of balls that moves on straight paths from frame to frame.
+
+    A time is that of all steps. The works ``events``, ``chords``, ``tight_chords`` (within 1%), ``layered_chords`` and
+    ``box_events`` hold all beads at all times. ``updated``, ``rebuilt`` (wrapped), ``layered`` and ``boxes`` (refitted) hold them
+    at each frame.
+
+    >>> import kds.timing
+    >>> found = kds.timing.hierarchy_steps(kds.generate("random-chain", beads=20, frames=3), 1, rounds=2)
+    >>> len(found), len(found["boxes"])
+    (9, 2)
+    """
+    return _kds.time_hierarchy_steps(list(plain("frames", frames)), number("radius", radius, "a length from 0"),
+                                     whole("rounds", rounds, 0))
+
+
+def contact_steps(frames, radius, *, apart=2, strides=(1,), rounds=5):
+    """Times searches for contacts in a chain of balls that moves on straight paths from frame to frame.
+
+    A time is that of all steps. The works ``events`` (the kinetic structure), ``paths`` (a cell list, then a quadratic for each
+    near pair) and ``block_paths`` find when each contact begins and ends. ``METHOD_STRIDE``, such as ``cells_8``, finds the pairs
+    at each stride-th frame: ``cells`` (cell list), ``verlet`` (Verlet list with a skin of one radius), ``auto`` (the detector of
+    kds), ``blocks`` (its tree, rebuilt at each frame), ``wrapped`` and ``layered`` (rebuilt), and ``boxes`` (refitted). The counts
+    are the ``pairs`` of all frames, and the ``begins`` and ``ends`` of contacts after the first frame.
+
+    >>> import kds.timing
+    >>> found = kds.timing.contact_steps([[[0, 0, 0], [9, 0, 1]], [[0, 0, 0], [1, 0, 0]]], 1, apart=1, rounds=1)
+    >>> found["pairs"], found["begins"], found["ends"], len(found["cells_1"])
+    (1, 1, 0, 1)
+    """
+    return _kds.time_contact_steps(list(plain("frames", frames)), number("radius", radius, "a length from 0"),
+                                   whole("apart", apart, 1), [whole("strides", stride, 1) for stride in strides],
+                                   whole("rounds", rounds, 0))

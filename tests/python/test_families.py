@@ -204,6 +204,11 @@ class Refusals(unittest.TestCase):
         self.assert_refused("centers: has 1 bead; expected 2", kds.timing.builds, line[:1])
         self.assert_refused("expected two necklaces", kds.timing.updates_between, line[:3], line[:3], 2)
         self.assert_refused("rounds: is 1000", kds.timing.builds, line, rounds=10**20)
+        self.assert_refused("strides: is 0", kds.timing.contact_steps, [line, line], 1, strides=[0])
+        for steps in (kds.timing.contact_steps, kds.timing.hierarchy_steps):
+            self.assert_refused("frames: has fewer than two frames", steps, [line], 1)
+            self.assert_refused("frames: expected the shape", steps, line, 1)
+            self.assert_refused("frames: all beads lie in one plane", steps, [line, line], 1)
         self.assert_refused("would round", kds.layered_hierarchy, np.array([[0, 0, 0], [2**62 + 1, 0, 0]]), 1)
 
     def test_results_that_are_no_doubles(self):
