@@ -1,0 +1,233 @@
+"""What a step costs and what it gives, beside the methods that others use: hierarchies, and contacts.
+
+A hierarchy is judged by its excess volume at random times within the steps: the mean over nodes of the volume by that of the
+smallest sphere (or axis-aligned box) around the same beads, less 1. A hierarchy that is made at frames does not hold its beads between
+them, so each node is inflated by the largest displacement of its beads in the step. A contact search is judged by the share of contacts that it
+misses: those of straight paths during which no examined frame lies. Radii of contacts are 2.5 times those of the necklace, and
+pairs are at least 5 apart along the chain.
+
+Times are processor times of all steps together, for inputs that are in memory, and methods take turns. The ratio has the median
+and in parentheses the least and the most of the rounds. The default form takes three minutes; --short leaves out chains of 1,000
+beads and more. draw() makes the figure of the rows, which needs matplotlib (scripts/pictures).
+"""
+
+import kds
+import kds.timing
+import numpy as np
+from common import Report
+from subjects import half_longest_bond
+
+FACTOR, APART, STRIDES = 2.5, 5, (1, 2, 4, 8)
+FILES = {"villin": ("villin_hp36_300K.dcd", "villin_hp36_300K.pdb", 992),
+         "random100": ("random100_400K_first200.dcd", "random100_400K.pdb", 192),
+         "dhodh": ("dhodh363_1000K_first20.dcd", "dhodh363_1000K.pdb", 16),
+         "ubiquitin": ("ubiquitin_pull_first30.pdb", None, 24)}
+CHAINS = {100: 512, 1000: 64, 10_000: 16, 100_000: 8}  # steps by the number of beads
+HIERARCHIES = {"events": "spheres, events", "chords": "spheres, chords", "tight_chords": "spheres, chords within 1%",
+               "layered_chords": "layered spheres, blended", "box_events": "boxes, events", "boxes": "boxes, refitted",
+               "updated": "spheres, updated", "rebuilt": "spheres, rebuilt", "layered": "layered spheres, rebuilt"}
+RUNS = {"events": {"structures": ["wrapped"]}, "chords": {"structures": ["wrapped"], "between": "chord"},
+        "tight_chords": {"structures": ["wrapped"], "between": "chord", "tightness": 0.01},
+        "layered_chords": {"structures": ["layered"]}}
+CONTACTS = {"events": "events", "paths": "cell list and paths", "block_paths": "block tree and paths", "cells": "cell list",
+            "verlet": "Verlet list", "auto": "auto", "blocks": "block tree, rebuilt", "wrapped": "spheres, rebuilt",
+            "layered": "layered spheres, rebuilt", "boxes": "boxes, refitted"}
+
+
+def inputs(data, short):
+    """Yields the name, the frames and the radius of each input."""
+    for name, (file, topology, steps) in FILES.items():
+        frames = kds.reading.positions(data / "trajectories" / file, *([data / "trajectories" / topology] if topology else []))
+        yield name, frames[:(16 if short else steps) + 1].astype(float), half_longest_bond(frames)
+    for beads, steps in CHAINS.items():
+        if beads < 1000 or not short:
+            yield f"chain {beads}", kds.generate("random-chain", beads=beads, frames=steps + 1, step=0.1), 1.0
+
+
+class Nodes:
+    """Volumes of a hierarchy's nodes, which are ranges of beads."""
+
+    def __init__(self, nodes):
+        self.first, end = nodes[:, 0], nodes[:, 1] + 1
+        self.ends = np.stack([self.first, end], axis=1).ravel()
+        self.sizes = end - self.first
+        self.starts = np.cumsum(self.sizes) - self.sizes
+        self.beads = np.arange(self.sizes.sum()) - np.repeat(self.starts - self.first, self.sizes)
+
+    def boxes(self, positions, radius):
+        """Returns the low and the high corners of the smallest boxes, an array (2, nodes, 3)."""
+        padded = np.concatenate([positions, positions[-1:]])  # reduceat takes no end beyond the array
+        low, high = (reduce.reduceat(padded, self.ends)[::2] for reduce in (np.minimum, np.maximum))
+        return np.stack([low - radius, high + radius])
+
+    def most(self, values):
+        """Returns the largest value of each node. There is one value for each bead of each node."""
+        return np.maximum.reduceat(values, self.starts)
+
+    def reach(self, positions, spheres, radius):
+        """Returns the distance from a node's centre to the farthest point of its balls."""
+        apart = positions[self.beads] - np.repeat(spheres[:, :3], self.sizes, axis=0)
+        return np.sqrt(self.most((apart**2).sum(1))) + radius
+
+
+def volume(boxes):
+    return np.prod(boxes[1] - boxes[0], axis=1)
+
+
+def bounds(frames, radius, times, seed):
+    """Returns for each method its mean excess volume, the share of nodes out of which a bead sticks if those of the frame before
+    are kept, and the excess if they are inflated. Means are over nodes and random times; box_per_sphere has mean volumes."""
+    random = np.random.default_rng(seed)
+    at = np.sort(random.integers(len(frames) - 1, size=times) + random.integers(1, 1024, size=times) / 1024)
+    runs = {name: getattr(kds.run(frames, radius=radius, **options), options["structures"][0]) for name, options in RUNS.items()}
+    found = {}
+
+    def add(method, column, values):
+        found.setdefault(method, {}).setdefault(column, []).append(float(np.mean(values)))
+
+    for time in at:
+        step, u = int(time), time % 1
+        before, after = frames[step], frames[step + 1]
+        here, moved = (1 - u) * before + u * after, np.linalg.norm(after - before, axis=1)
+        ranges, smallest = kds.wrapped_hierarchy(here, radius)
+        nodes = Nodes(ranges)
+        moved = nodes.most(moved[nodes.beads])
+        for name, run in runs.items():
+            add(name, "excess", (run.spheres(time)[:, 3] / smallest[:, 3])**3 - 1)
+        wrapped, layered = kds.wrapped_hierarchy(before, radius)[1], kds.layered_hierarchy(before, radius)[1]
+        for names, spheres in ((("updated", "rebuilt"), wrapped), (("layered",), layered)):
+            for name in names:
+                add(name, "outside", nodes.reach(here, spheres, radius) > spheres[:, 3] * (1 + 1e-9))
+                add(name, "inflated", ((spheres[:, 3] + moved) / smallest[:, 3])**3 - 1)
+        exact, first, last = (nodes.boxes(positions, radius) for positions in (here, before, after))
+        grow = np.array([-moved, moved])[:, :, None]
+        add("boxes", "excess", volume((1 - u) * first + u * last) / volume(exact) - 1)
+        add("boxes", "outside", ((exact[0] < first[0] - 1e-9) | (exact[1] > first[1] + 1e-9)).any(1))
+        add("boxes", "inflated", volume(first + grow) / volume(exact) - 1)
+        add("boxes", "box_per_sphere", volume(exact) / (4 / 3 * np.pi * smallest[:, 3]**3))
+    return {name: {column: round(float(np.mean(values)), 6) for column, values in columns.items()}
+            for name, columns in found.items()}
+
+
+def contact_intervals(run):
+    """Returns the begin and the end of each contact in frames. Contacts of the first frame begin at 0, and contacts of the last
+    one end at infinity."""
+    events = run.events
+    pairs = [tuple(pair) for pair in run.contacts.pairs(0).tolist()]
+    opened, intervals = dict.fromkeys(pairs, 0.0), []
+    for kind, time, pair in zip(events["kind"].tolist(), events["frame"].tolist(), map(tuple, events["beads"][:, :2].tolist())):
+        if kind == "begin":
+            opened[pair] = time
+        else:
+            intervals.append((opened.pop(pair), time))
+    return np.array(intervals + [(time, np.inf) for time in opened.values()]).reshape(-1, 2)
+
+
+def missed(intervals, stride):
+    """Returns the share of contacts during which no stride-th frame lies."""
+    return float(np.mean(np.ceil(intervals[:, 0] / stride) * stride > intervals[:, 1]))
+
+
+def timed(name, beads, steps, seconds, methods, at=""):
+    """Returns a row for each method: microseconds a step, and the ratio to the kinetic structure. `at` is behind a work's name."""
+    for work, method in methods.items():
+        own = seconds[work + at if work + at in seconds else work]
+        ratio = own / (seconds["events"] if len(own) == len(seconds["events"]) else np.median(seconds["events"]))
+        yield {"row": f"{name}, {work}", "input": name, "beads": beads, "method": method, "us": 1e6 * float(np.median(own)) / steps,
+               "ratio": float(np.median(ratio)), "least": float(ratio.min()), "most": float(ratio.max())}
+
+
+def hierarchies(name, frames, radius, rounds, times, seed=1):
+    """Returns the rows of the hierarchies of one input."""
+    found, of = kds.timing.hierarchy_steps(frames, radius, rounds=rounds), bounds(frames, radius, times, seed)
+    rows = timed(name, frames.shape[1], len(frames) - 1, found, HIERARCHIES)
+    return [{**row, **of.get(work, {})} for work, row in zip(HIERARCHIES, rows)]
+
+
+def contacts(name, frames, radius, rounds):
+    """Returns the counts of one input, and the rows of the methods that find its contacts."""
+    radius *= FACTOR
+    found = kds.timing.contact_steps(frames, radius, apart=APART, strides=STRIDES, rounds=rounds)
+    run = kds.run(frames, radius=radius, structures=["contacts"], apart=APART)
+    intervals, kinds = contact_intervals(run), run.events["kind"]
+    shares = {stride: missed(intervals, stride) for stride in STRIDES}
+    counts = {"row": f"{name}, counts", "pairs": found["pairs"], "begins": found["begins"], "ends": found["ends"],
+              "contacts": len(intervals), **{f"missed_{stride}": share for stride, share in shares.items()}}
+    agree = [found["begins"], found["ends"]] == [int((kinds == kind).sum()) for kind in ("begin", "end")]
+    rows = list(timed(f"{name}, contacts", frames.shape[1], len(frames) - 1, found, CONTACTS, "_1"))
+    for work, row in zip(CONTACTS, rows):
+        for stride in STRIDES:
+            if f"{work}_{stride}" in found:
+                row[f"us_{stride}"] = 1e6 * float(np.median(found[f"{work}_{stride}"])) / (len(frames) - 1)
+    return counts, rows, agree
+
+
+def spread(row):
+    return f"{row['ratio']:.3g}" + (f" ({row['least']:.3g} to {row['most']:.3g})" if row["least"] < row["most"] else "")
+
+
+def percent(value):
+    return "" if value is None else f"{100 * value:.3g}%"
+
+
+def draw(rows, path):
+    """Draws both fronts for two trajectories, and times against the number of beads for generated chains."""
+    import matplotlib
+
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})
+    figure, every = pyplot.subplots(2, 3, figsize=(13, 9))
+    by_row = {row["row"]: row for row in rows}
+    for line, methods in zip(every, (HIERARCHIES, CONTACTS)):
+        end = "" if methods is HIERARCHIES else ", contacts"
+        for k, (work, method) in enumerate(methods.items()):
+            style = {"color": f"C{k}", "marker": "ovs^D<>Pp*"[k], "label": method}
+            for axes, name in zip(line, ("villin", "dhodh")):
+                row, counts = by_row[f"{name}{end}, {work}"], by_row[f"{name}, counts"]
+                strides = [stride for stride in STRIDES if f"us_{stride}" in row]
+                if strides:
+                    axes.plot([100 * counts[f"missed_{stride}"] for stride in strides], [row[f"us_{stride}"] for stride in strides],
+                              **style)
+                elif end or "excess" in row or "inflated" not in row:
+                    axes.plot(100 * row.get("excess", 0), row["us"], **style)
+                if "inflated" in row:
+                    axes.plot(100 * row["inflated"], row["us"], fillstyle="none", **style)
+                axes.set(yscale="log", ylabel="microseconds a step", title=f"{name}, {row['beads']:,} beads",
+                         xlabel="contacts missed (%)" if end else "mean excess volume (%); hollow: inflated")
+                if not end:
+                    axes.set_xscale("symlog", linthresh=0.01)
+                    axes.set_xlim(-0.002, 3000)
+            chains = [by_row[row] for row in (f"chain {beads}{end}, {work}" for beads in CHAINS) if row in by_row]
+            line[2].plot([row["beads"] for row in chains], [row["us"] for row in chains], **style)
+        line[2].set(xscale="log", yscale="log", xlabel="beads", ylabel="microseconds a step", title="generated chains")
+        line[2].legend(fontsize=8)
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None})
+    pyplot.close(figure)
+
+
+def main():
+    report = Report(__doc__)
+    of_hierarchies, of_contacts, counts, agree = [], [], [], []
+    for name, frames, radius in inputs(report.data, report.short):
+        times = 4 if report.short else max(2, min(20, 20_000 // frames.shape[1]))
+        of_hierarchies += hierarchies(name, frames, radius, report.rounds, times)
+        counted, rows, same = contacts(name, frames, radius, report.rounds)
+        of_contacts, counts, agree = of_contacts + rows, [*counts, counted], [*agree, same]
+    report.show(["hierarchy", "us a step", "by events", "excess", "nodes left", "inflated", "box by sphere"],
+                [[f"{row['input']}: {row['method']}", row["us"], spread(row), *(percent(row.get(column))
+                  for column in ("excess", "outside", "inflated", "box_per_sphere"))] for row in of_hierarchies])
+    report.show(["contacts", "us a step", "by events", *(f"us, every {stride}" for stride in STRIDES[1:])],
+                [[f"{row['input']}: {row['method']}", row["us"], spread(row), *(row.get(f"us_{stride}") for stride in STRIDES[1:])]
+                 for row in of_contacts])
+    report.show(list(counts[0]), [list(row.values()) for row in counts])
+    report.results["rows"] = of_hierarchies + of_contacts + counts
+    report.claim("same contacts", "Events and quadratics find the same numbers of contacts", all(agree),
+                 f"{sum(agree)} of {len(agree)} inputs")
+    report.finish()
+
+
+if __name__ == "__main__":
+    main()
