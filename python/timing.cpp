@@ -538,7 +538,7 @@ py::dict contact_steps(const std::vector<Numbers>& frames, double radius, std::s
   const PairsAsked asked{chain.necklaces, true, static_cast<BeadId>(apart), true};
   CellList<3> cells(asked), cells_of_paths(asked);
   VerletList<3> verlet(asked, radius);
-  AutoDetector<3> kept(asked), blocks(asked), blocks_of_paths(asked);
+  AutoDetector<3> blocks(asked), blocks_of_paths(asked);
   SphereTree<3> wrapped(Hierarchy::wrapped, chain.necklaces), layered(Hierarchy::layered, chain.necklaces);
   AxisBoxes boxes(chain.necklaces);
   const auto search = [&](SphereTree<3>& tree) {
@@ -550,7 +550,6 @@ py::dict contact_steps(const std::vector<Numbers>& frames, double radius, std::s
   const std::vector<std::pair<std::string, std::function<std::size_t(const Balls<3>&)>>> methods{
       {"cells", [&](const Balls<3>& balls) { return cells.pairs(balls).size(); }},
       {"verlet", [&](const Balls<3>& balls) { return verlet.pairs(balls).size(); }},
-      {"auto", [&](const Balls<3>& balls) { return kept.pairs(balls).size(); }},
       {"blocks",
        [&](const Balls<3>& balls) {
          blocks.forget();

@@ -30,7 +30,7 @@ RUNS = {"events": {"structures": ["wrapped"]}, "chords": {"structures": ["wrappe
         "tight_chords": {"structures": ["wrapped"], "between": "chord", "tightness": 0.01},
         "layered_chords": {"structures": ["layered"]}}
 CONTACTS = {"events": "events", "paths": "cell list and paths", "block_paths": "block tree and paths", "cells": "cell list",
-            "verlet": "Verlet list", "auto": "auto", "blocks": "block tree, rebuilt", "wrapped": "spheres, rebuilt",
+            "verlet": "Verlet list", "blocks": "block tree, rebuilt", "wrapped": "spheres, rebuilt",
             "layered": "layered spheres, rebuilt", "boxes": "boxes, refitted"}
 
 
@@ -125,7 +125,7 @@ def contact_intervals(run):
 
 def missed(intervals, stride):
     """Returns the share of contacts during which no stride-th frame lies."""
-    return float(np.mean(np.ceil(intervals[:, 0] / stride) * stride > intervals[:, 1]))
+    return float(np.mean(np.ceil(intervals[:, 0] / stride) * stride > intervals[:, 1])) if len(intervals) else None
 
 
 def timed(name, beads, steps, seconds, methods, at=""):
@@ -138,10 +138,11 @@ def timed(name, beads, steps, seconds, methods, at=""):
 
 
 def hierarchies(name, frames, radius, rounds, times, seed=1):
-    """Returns the rows of the hierarchies of one input."""
+    """Returns the bounds of the hierarchies of one input by their names, and the rows of their times."""
     found, of = kds.timing.hierarchy_steps(frames, radius, rounds=rounds), bounds(frames, radius, times, seed)
     rows = timed(name, frames.shape[1], len(frames) - 1, found, HIERARCHIES)
-    return [{**row, **of.get(work, {})} for work, row in zip(HIERARCHIES, rows)]
+    named = {f"{work}_{column}": value for work, columns in of.items() for column, value in columns.items()}
+    return named, [{**row, **of.get(work, {})} for work, row in zip(HIERARCHIES, rows)]
 
 
 def contacts(name, frames, radius, rounds):
@@ -151,7 +152,7 @@ def contacts(name, frames, radius, rounds):
     run = kds.run(frames, radius=radius, structures=["contacts"], apart=APART)
     intervals, kinds = contact_intervals(run), run.events["kind"]
     shares = {stride: missed(intervals, stride) for stride in STRIDES}
-    counts = {"row": f"{name}, counts", "pairs": found["pairs"], "begins": found["begins"], "ends": found["ends"],
+    counts = {"row": name, "pairs": found["pairs"], "begins": found["begins"], "ends": found["ends"],
               "contacts": len(intervals), **{f"missed_{stride}": share for stride, share in shares.items()}}
     agree = [found["begins"], found["ends"]] == [int((kinds == kind).sum()) for kind in ("begin", "end")]
     rows = list(timed(f"{name}, contacts", frames.shape[1], len(frames) - 1, found, CONTACTS, "_1"))
@@ -170,22 +171,22 @@ def percent(value):
     return "" if value is None else f"{100 * value:.3g}%"
 
 
-def draw(rows, path):
-    """Draws both fronts for two trajectories, and times against the number of beads for generated chains."""
+def draw(results, path):
+    """Draws the results of main(): both fronts for two trajectories, and times against the number of beads for generated chains."""
     import matplotlib
 
     matplotlib.use("svg")
     from matplotlib import pyplot
 
     pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})
-    figure, every = pyplot.subplots(2, 3, figsize=(13, 9))
-    by_row = {row["row"]: row for row in rows}
+    figure, every = pyplot.subplots(2, 3, figsize=(14, 9), width_ratios=(4, 4, 3))
+    by_row = {row["row"]: row for row in results["rows"] + results["times"]}
     for line, methods in zip(every, (HIERARCHIES, CONTACTS)):
         end = "" if methods is HIERARCHIES else ", contacts"
         for k, (work, method) in enumerate(methods.items()):
             style = {"color": f"C{k}", "marker": "ovs^D<>Pp*"[k], "label": method}
             for axes, name in zip(line, ("villin", "dhodh")):
-                row, counts = by_row[f"{name}{end}, {work}"], by_row[f"{name}, counts"]
+                row, counts = by_row[f"{name}{end}, {work}"], by_row[name]
                 strides = [stride for stride in STRIDES if f"us_{stride}" in row]
                 if strides:
                     axes.plot([100 * counts[f"missed_{stride}"] for stride in strides], [row[f"us_{stride}"] for stride in strides],
@@ -194,15 +195,15 @@ def draw(rows, path):
                     axes.plot(100 * row.get("excess", 0), row["us"], **style)
                 if "inflated" in row:
                     axes.plot(100 * row["inflated"], row["us"], fillstyle="none", **style)
-                axes.set(yscale="log", ylabel="microseconds a step", title=f"{name}, {row['beads']:,} beads",
+                axes.set(yscale="log", ylabel="microseconds a step", title=f"{'contacts' if end else 'hierarchies'} of {name}, {row['beads']:,} beads",
                          xlabel="contacts missed (%)" if end else "mean excess volume (%); hollow: inflated")
                 if not end:
                     axes.set_xscale("symlog", linthresh=0.01)
                     axes.set_xlim(-0.002, 3000)
             chains = [by_row[row] for row in (f"chain {beads}{end}, {work}" for beads in CHAINS) if row in by_row]
-            line[2].plot([row["beads"] for row in chains], [row["us"] for row in chains], **style)
-        line[2].set(xscale="log", yscale="log", xlabel="beads", ylabel="microseconds a step", title="generated chains")
-        line[2].legend(fontsize=8)
+            line[2].plot([row["beads"] for row in chains], [1000 * row["us"] / row["beads"] for row in chains], **style)
+        line[2].set(xscale="log", yscale="log", xlabel="beads", ylabel="nanoseconds a bead and step", title="generated chains" + end)
+        line[2].legend(loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
     figure.tight_layout()
     figure.savefig(path, metadata={"Date": None})
     pyplot.close(figure)
@@ -213,9 +214,11 @@ def main():
     of_hierarchies, of_contacts, counts, agree = [], [], [], []
     for name, frames, radius in inputs(report.data, report.short):
         times = 4 if report.short else max(2, min(20, 20_000 // frames.shape[1]))
-        of_hierarchies += hierarchies(name, frames, radius, report.rounds, times)
+        bounded, rows = hierarchies(name, frames, radius, report.rounds, times)
+        of_hierarchies += rows
         counted, rows, same = contacts(name, frames, radius, report.rounds)
         of_contacts, counts, agree = of_contacts + rows, [*counts, counted], [*agree, same]
+        report.results["rows"].append({**counted, **bounded})
     report.show(["hierarchy", "us a step", "by events", "excess", "nodes left", "inflated", "box by sphere"],
                 [[f"{row['input']}: {row['method']}", row["us"], spread(row), *(percent(row.get(column))
                   for column in ("excess", "outside", "inflated", "box_per_sphere"))] for row in of_hierarchies])
@@ -223,7 +226,7 @@ def main():
                 [[f"{row['input']}: {row['method']}", row["us"], spread(row), *(row.get(f"us_{stride}") for stride in STRIDES[1:])]
                  for row in of_contacts])
     report.show(list(counts[0]), [list(row.values()) for row in counts])
-    report.results["rows"] = of_hierarchies + of_contacts + counts
+    report.results["times"] = of_hierarchies + of_contacts
     report.claim("same contacts", "Events and quadratics find the same numbers of contacts", all(agree),
                  f"{sum(agree)} of {len(agree)} inputs")
     report.finish()

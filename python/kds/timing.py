@@ -108,9 +108,9 @@ def contact_steps(frames, radius, *, apart=2, strides=(1,), rounds=5):
 
     A time is that of all steps. The works ``events`` (the kinetic structure), ``paths`` (a cell list, then a quadratic for each
     near pair) and ``block_paths`` find when each contact begins and ends. ``METHOD_STRIDE``, such as ``cells_8``, finds the pairs
-    at each stride-th frame: ``cells`` (cell list), ``verlet`` (Verlet list with a skin of one radius), ``auto`` (the detector of
-    kds), ``blocks`` (its tree, rebuilt at each frame), ``wrapped`` and ``layered`` (rebuilt), and ``boxes`` (refitted). The counts
-    are the ``pairs`` of all frames, and the ``begins`` and ``ends`` of contacts after the first frame.
+    at each stride-th frame: ``cells`` (cell list), ``verlet`` (Verlet list with a skin of one radius), ``blocks`` (the
+    tree of the detector ``auto``, rebuilt), ``wrapped`` and ``layered`` (rebuilt), and ``boxes`` (refitted). The counts are the
+    ``pairs`` of all frames, and the ``begins`` and ``ends`` of contacts after the first frame.
 
     >>> import kds.timing
     >>> found = kds.timing.contact_steps([[[0, 0, 0], [9, 0, 1]], [[0, 0, 0], [1, 0, 0]]], 1, apart=1, rounds=1)

@@ -23,10 +23,10 @@ except Exception as error:  # a package may be installed and broken
 try:
     from scipy.optimize import linprog
     from scipy.sparse import csc_matrix
-    from scipy.spatial import Delaunay
+    from scipy.spatial import Delaunay, cKDTree
 except Exception as error:
-    Delaunay = linprog = None
-    print(f"left out: cells, edges and bounds of families, because scipy cannot be imported ({error})")
+    Delaunay = cKDTree = linprog = None
+    print(f"left out: cells, edges, pairs at frames and bounds of families, because scipy cannot be imported ({error})")
 
 KDS, DATA, FOLDER = sys.argv[1:4]
 os.makedirs(FOLDER, exist_ok=True)
@@ -53,11 +53,15 @@ def kds(*arguments):
 # --- files ---
 
 
+def read_frames(path):
+    """Returns the frames of an XYZ file, an array (frames, beads, 3)."""
+    lines = open(path).read().splitlines()
+    size = int(lines[0]) + 2
+    return numpy.array([[line.split()[1:4] for line in lines[at + 2 : at + size]] for at in range(0, len(lines), size)], float)
+
+
 def read_xyz(path):
-    with open(path) as file:
-        count = int(file.readline())
-        file.readline()
-        return numpy.array([[float(word) for word in file.readline().split()[1:4]] for _ in range(count)])
+    return read_frames(path)[0]
 
 
 def read_backbone(path):
@@ -324,6 +328,63 @@ def compare_lifetimes():
             for figure, value in (("residence", time / ends), ("S", still / seen), ("C", again / seen)):
                 check(f"{name}, {figure} is {value}", True, bool(abs(row[figure] / value - 1) < 1e-7))
 
+# --- steps of experiments/paper/peers.py ---
+
+
+def excesses(frames, radius):
+    """Returns mean excess volumes at four random times."""
+    random = numpy.random.default_rng(1)
+    found = {}
+
+    def add(name, values):
+        found.setdefault(name, []).append(numpy.mean(values))
+
+    for time in numpy.sort(random.integers(len(frames) - 1, size=4) + random.integers(1, 1024, size=4) / 1024):
+        step, u = int(time), time % 1
+        before, after = frames[step], frames[step + 1]
+        here = (1 - u) * before + u * after
+        smallest = list(tree_over(here, radius).nodes())
+        beads = [slice(node.first, node.last + 1) for node in smallest]
+        most = [numpy.linalg.norm(after[one] - before[one], axis=1).max() for one in beads]
+        for name, at_frames, layered in (("chords", "updated", False), ("layered_chords", "layered", True)):
+            first, last = (list(tree_over(frame, radius, layered).nodes()) for frame in (before, after))
+            cubes = [one.radius**3 for one in smallest]
+            add(f"{name}_excess", [((1 - u) * a.radius + u * b.radius) ** 3 / cube - 1 for a, b, cube in zip(first, last, cubes)])
+            add(f"{at_frames}_inflated", [(a.radius + moved) ** 3 / cube - 1 for a, moved, cube in zip(first, most, cubes)])
+            add(f"{at_frames}_outside", [numpy.linalg.norm(here[one] - a.center, axis=1).max() + radius > a.radius * (1 + 1e-9)
+                                         for a, one in zip(first, beads)])
+        sides = [numpy.array([numpy.ptp(frame[one], axis=0) + 2 * radius for one in beads]) for frame in (here, before, after)]
+        volumes = sides[0].prod(1)
+        add("boxes_excess", ((1 - u) * sides[1] + u * sides[2]).prod(1) / volumes - 1)
+        add("boxes_inflated", (sides[1] + 2 * numpy.array(most)[:, None]).prod(1) / volumes - 1)
+        add("boxes_box_per_sphere", volumes / [4 / 3 * numpy.pi * one.radius**3 for one in smallest])
+    return {name: float(numpy.mean(values)) for name, values in found.items()}
+
+
+def compare_peers():
+    """Contacts, those that frames miss, and excess volumes, which peers.py must find."""
+    expected = json.loads((Path(__file__).resolve().parents[1] / "paper" / "peers.json").read_text())
+    chain = os.path.join(FOLDER, "moving.xyz")
+    kds("generate", "random-chain", "--beads", "100", "--frames", "513", "--step", "0.1", "-o", chain, "--quiet")
+    files = {"villin": "villin_hp36_300K", "random100": "random100_400K_first200", "dhodh": "dhodh363_1000K_first20"}
+    moving = {name: read_dcd(os.path.join(DATA, f"trajectories/{file}.dcd")) for name, file in files.items()}
+    cases = [(name, frames[:17], half_longest_bond(frames)) for name, frames in moving.items()]
+    for name, frames, own_radius in [*cases, ("chain 100", read_frames(chain), 1.0)]:
+        row, radius = expected[name], 2.5 * own_radius
+        intervals = [contact for pair in contact_intervals(frames, 2 * radius, 5) for contact in pair]
+        begins, ends = sum(begin > 1e-9 for begin, _ in intervals), sum(end < len(frames) - 1 for _, end in intervals)
+        for kind, count in (("begins", begins), ("ends", ends), ("contacts", len(intervals))):
+            check(f"peers, {name}, {kind}", row[kind], count)
+        for stride in (1, 2, 4, 8):
+            missed = sum(-(-begin // stride) * stride > end for begin, end in intervals)
+            check(f"peers, {name}, missed at stride {stride}", round(row[f"missed_{stride}"] * row["contacts"], 6), missed)
+        if cKDTree:
+            pairs = [cKDTree(frame).query_pairs(2 * radius, output_type="ndarray") for frame in frames]
+            check(f"peers, {name}, pairs", row["pairs"], sum(int((two[:, 1] - two[:, 0] >= 5).sum()) for two in pairs))
+        if name in ("villin", "random100"):
+            for column, value in excesses(frames, own_radius).items():
+                check(f"peers, {name}, {column}", True, abs(row[column] - value) < 2e-6)
+
 
 def compare_spirals():
     """Sets between two spirals, the second one shifted across the plane until the nearest beads are a gap apart."""
@@ -395,5 +456,6 @@ compare_tables()
 compare_lifetimes()
 compare_spirals()
 compare_bounds()
+compare_peers()
 print(f"{CHECKS - len(FAILURES)} of {CHECKS} counts agree")
 sys.exit(1 if FAILURES else 0)
