@@ -1,20 +1,27 @@
 """What a step costs and what it gives, beside the methods that others use: hierarchies, and contacts.
 
 A hierarchy is judged by its excess volume at random times within the steps: the mean over nodes of the volume by that of the
-smallest sphere (or axis-aligned box) around the same beads, less 1. A hierarchy that is made at frames does not hold its beads between
-them, so each node is inflated by the largest displacement of its beads in the step. A contact search is judged by the share of contacts that it
-misses: those of straight paths during which no examined frame lies. Radii of contacts are 2.5 times those of the necklace, and
-pairs are at least 5 apart along the chain.
+smallest sphere (or axis-aligned box) around the same beads, less 1. Box events keep the smallest boxes. Boxes that are refitted
+at frames are blended: on straight paths the box between two frames, corner by corner, holds all beads. Other hierarchies that
+are made at frames do not hold their beads between them. Their nodes are inflated by the largest displacement of their beads.
 
-Times are processor times of all steps together, for inputs that are in memory, and methods take turns. The ratio has the median
-and in parentheses the least and the most of the rounds. The default form takes three minutes; --short leaves out chains of 1,000
-beads and more. draw() makes the figure of the rows, which needs matplotlib (scripts/pictures).
+A contact search is judged by the share of contacts that it misses: those of straight paths during which no examined frame lies.
+Radii of contacts are 2.5 times those of the necklace, and pairs are at least 5 apart along the chain.
+
+Times are processor times of all steps together, for inputs that are in memory. Methods take turns, but for the k-d tree of
+scipy, which follows. A ratio is the median of the rounds, with the least and the most in parentheses. Work of more than a
+second is done once. The default form takes two minutes; --short leaves out chains of 1,000 beads and more. draw() makes the
+figure of the results, which needs matplotlib (scripts/pictures).
 """
 
+import time
+
 import kds
+import kds.reading
 import kds.timing
 import numpy as np
 from common import Report
+from scipy.spatial import cKDTree
 from subjects import half_longest_bond
 
 FACTOR, APART, STRIDES = 2.5, 5, (1, 2, 4, 8)
@@ -31,7 +38,7 @@ RUNS = {"events": {"structures": ["wrapped"]}, "chords": {"structures": ["wrappe
         "layered_chords": {"structures": ["layered"]}}
 CONTACTS = {"events": "events", "paths": "cell list and paths", "block_paths": "block tree and paths", "cells": "cell list",
             "verlet": "Verlet list", "blocks": "block tree, rebuilt", "wrapped": "spheres, rebuilt",
-            "layered": "layered spheres, rebuilt", "boxes": "boxes, refitted"}
+            "layered": "layered spheres, rebuilt", "boxes": "boxes, refitted", "kd_tree": "k-d tree of scipy"}
 
 
 def inputs(data, short):
@@ -74,26 +81,26 @@ def volume(boxes):
     return np.prod(boxes[1] - boxes[0], axis=1)
 
 
-def bounds(frames, radius, times, seed):
-    """Returns for each method its mean excess volume, the share of nodes out of which a bead sticks if those of the frame before
-    are kept, and the excess if they are inflated. Means are over nodes and random times; box_per_sphere has mean volumes."""
+def bounds(frames, radius, count, seed):
+    """Returns the mean excess volume of each method; for methods at frames also the share of nodes that a bead has left since
+    the frame, and the excess of inflated nodes. box_per_sphere is the volume of the smallest box by that of the sphere."""
     random = np.random.default_rng(seed)
-    at = np.sort(random.integers(len(frames) - 1, size=times) + random.integers(1, 1024, size=times) / 1024)
-    runs = {name: getattr(kds.run(frames, radius=radius, **options), options["structures"][0]) for name, options in RUNS.items()}
+    times = np.sort(random.integers(len(frames) - 1, size=count) + random.integers(1, 1024, size=count) / 1024)
+    runs = {name: getattr(kds.run(frames, radius=radius, **options), *options["structures"]) for name, options in RUNS.items()}
     found = {}
 
     def add(method, column, values):
         found.setdefault(method, {}).setdefault(column, []).append(float(np.mean(values)))
 
-    for time in at:
-        step, u = int(time), time % 1
+    for at in times:
+        step, u = int(at), at % 1
         before, after = frames[step], frames[step + 1]
         here, moved = (1 - u) * before + u * after, np.linalg.norm(after - before, axis=1)
         ranges, smallest = kds.wrapped_hierarchy(here, radius)
         nodes = Nodes(ranges)
         moved = nodes.most(moved[nodes.beads])
         for name, run in runs.items():
-            add(name, "excess", (run.spheres(time)[:, 3] / smallest[:, 3])**3 - 1)
+            add(name, "excess", (run.spheres(at)[:, 3] / smallest[:, 3])**3 - 1)
         wrapped, layered = kds.wrapped_hierarchy(before, radius)[1], kds.layered_hierarchy(before, radius)[1]
         for names, spheres in ((("updated", "rebuilt"), wrapped), (("layered",), layered)):
             for name in names:
@@ -112,15 +119,14 @@ def bounds(frames, radius, times, seed):
 def contact_intervals(run):
     """Returns the begin and the end of each contact in frames. Contacts of the first frame begin at 0, and contacts of the last
     one end at infinity."""
-    events = run.events
-    pairs = [tuple(pair) for pair in run.contacts.pairs(0).tolist()]
-    opened, intervals = dict.fromkeys(pairs, 0.0), []
-    for kind, time, pair in zip(events["kind"].tolist(), events["frame"].tolist(), map(tuple, events["beads"][:, :2].tolist())):
+    kinds, times, beads = (run.events[field].tolist() for field in ("kind", "frame", "beads"))
+    opened, intervals = {tuple(pair): 0.0 for pair in run.contacts.pairs(0).tolist()}, []
+    for kind, at, (first, second, *_) in zip(kinds, times, beads):
         if kind == "begin":
-            opened[pair] = time
+            opened[first, second] = at
         else:
-            intervals.append((opened.pop(pair), time))
-    return np.array(intervals + [(time, np.inf) for time in opened.values()]).reshape(-1, 2)
+            intervals.append((opened.pop((first, second)), at))
+    return np.array(intervals + [(at, np.inf) for at in opened.values()]).reshape(-1, 2)
 
 
 def missed(intervals, stride):
@@ -128,19 +134,33 @@ def missed(intervals, stride):
     return float(np.mean(np.ceil(intervals[:, 0] / stride) * stride > intervals[:, 1])) if len(intervals) else None
 
 
-def timed(name, beads, steps, seconds, methods, at=""):
-    """Returns a row for each method: microseconds a step, and the ratio to the kinetic structure. `at` is behind a work's name."""
+def seconds_of_scipy(frames, reach, rounds):
+    """Returns the seconds that scipy takes to find the pairs of all frames but the first, by round."""
+    seconds = []
+    while len(seconds) < (rounds if not seconds or seconds[0] < 1 else 1):
+        start = time.process_time()
+        for frame in frames[1:]:
+            cKDTree(frame).query_pairs(reach, output_type="ndarray")
+        seconds.append(time.process_time() - start)
+    return np.array(seconds)
+
+
+def timed(name, frames, seconds, methods, at=""):
+    """Returns a row for each method: microseconds a step, and the ratio to events. A work's name may have `at` at its end."""
+    events, rows = seconds["events"], []
     for work, method in methods.items():
         own = seconds[work + at if work + at in seconds else work]
-        ratio = own / (seconds["events"] if len(own) == len(seconds["events"]) else np.median(seconds["events"]))
-        yield {"row": f"{name}, {work}", "input": name, "beads": beads, "method": method, "us": 1e6 * float(np.median(own)) / steps,
-               "ratio": float(np.median(ratio)), "least": float(ratio.min()), "most": float(ratio.max())}
+        ratio = own / (events if len(own) == len(events) else np.median(events))
+        rows.append({"row": f"{name}, {work}", "input": name, "beads": frames.shape[1], "method": method,
+                     "us": 1e6 * float(np.median(own)) / (len(frames) - 1),
+                     "ratio": float(np.median(ratio)), "least": float(ratio.min()), "most": float(ratio.max())})
+    return rows
 
 
-def hierarchies(name, frames, radius, rounds, times, seed=1):
+def hierarchies(name, frames, radius, rounds, count, seed=1):
     """Returns the bounds of the hierarchies of one input by their names, and the rows of their times."""
-    found, of = kds.timing.hierarchy_steps(frames, radius, rounds=rounds), bounds(frames, radius, times, seed)
-    rows = timed(name, frames.shape[1], len(frames) - 1, found, HIERARCHIES)
+    found, of = kds.timing.hierarchy_steps(frames, radius, rounds=rounds), bounds(frames, radius, count, seed)
+    rows = timed(name, frames, found, HIERARCHIES)
     named = {f"{work}_{column}": value for work, columns in of.items() for column, value in columns.items()}
     return named, [{**row, **of.get(work, {})} for work, row in zip(HIERARCHIES, rows)]
 
@@ -149,13 +169,13 @@ def contacts(name, frames, radius, rounds):
     """Returns the counts of one input, and the rows of the methods that find its contacts."""
     radius *= FACTOR
     found = kds.timing.contact_steps(frames, radius, apart=APART, strides=STRIDES, rounds=rounds)
+    found["kd_tree_1"] = seconds_of_scipy(frames, 2 * radius, rounds)
     run = kds.run(frames, radius=radius, structures=["contacts"], apart=APART)
     intervals, kinds = contact_intervals(run), run.events["kind"]
-    shares = {stride: missed(intervals, stride) for stride in STRIDES}
     counts = {"row": name, "pairs": found["pairs"], "begins": found["begins"], "ends": found["ends"],
-              "contacts": len(intervals), **{f"missed_{stride}": share for stride, share in shares.items()}}
+              "contacts": len(intervals), **{f"missed_{stride}": missed(intervals, stride) for stride in STRIDES}}
     agree = [found["begins"], found["ends"]] == [int((kinds == kind).sum()) for kind in ("begin", "end")]
-    rows = list(timed(f"{name}, contacts", frames.shape[1], len(frames) - 1, found, CONTACTS, "_1"))
+    rows = timed(f"{name}, contacts", frames, found, CONTACTS, "_1")
     for work, row in zip(CONTACTS, rows):
         for stride in STRIDES:
             if f"{work}_{stride}" in found:
@@ -172,7 +192,7 @@ def percent(value):
 
 
 def draw(results, path):
-    """Draws the results of main(): both fronts for two trajectories, and times against the number of beads for generated chains."""
+    """Draws both fronts for two trajectories, and the times of generated chains against their numbers of beads."""
     import matplotlib
 
     matplotlib.use("svg")
@@ -181,28 +201,27 @@ def draw(results, path):
     pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})
     figure, every = pyplot.subplots(2, 3, figsize=(14, 9), width_ratios=(4, 4, 3))
     by_row = {row["row"]: row for row in results["rows"] + results["times"]}
-    for line, methods in zip(every, (HIERARCHIES, CONTACTS)):
-        end = "" if methods is HIERARCHIES else ", contacts"
+    for line, methods, what, end in zip(every, (HIERARCHIES, CONTACTS), ("hierarchies", "contacts"), ("", ", contacts")):
         for k, (work, method) in enumerate(methods.items()):
             style = {"color": f"C{k}", "marker": "ovs^D<>Pp*"[k], "label": method}
             for axes, name in zip(line, ("villin", "dhodh")):
                 row, counts = by_row[f"{name}{end}, {work}"], by_row[name]
-                strides = [stride for stride in STRIDES if f"us_{stride}" in row]
-                if strides:
-                    axes.plot([100 * counts[f"missed_{stride}"] for stride in strides], [row[f"us_{stride}"] for stride in strides],
-                              **style)
-                elif end or "excess" in row or "inflated" not in row:
+                at = [stride for stride in STRIDES if f"us_{stride}" in row]
+                if at:
+                    missing = [100 * counts[f"missed_{stride}"] for stride in at]
+                    axes.plot(missing, [row[f"us_{stride}"] for stride in at], **style)
+                elif "excess" in row or "inflated" not in row:  # events of boxes and of contacts have no error
                     axes.plot(100 * row.get("excess", 0), row["us"], **style)
                 if "inflated" in row:
                     axes.plot(100 * row["inflated"], row["us"], fillstyle="none", **style)
-                axes.set(yscale="log", ylabel="microseconds a step", title=f"{'contacts' if end else 'hierarchies'} of {name}, {row['beads']:,} beads",
+                axes.set(yscale="log", ylabel="microseconds a step", title=f"{what} of {name}, {row['beads']:,} beads",
                          xlabel="contacts missed (%)" if end else "mean excess volume (%); hollow: inflated")
                 if not end:
                     axes.set_xscale("symlog", linthresh=0.01)
                     axes.set_xlim(-0.002, 3000)
             chains = [by_row[row] for row in (f"chain {beads}{end}, {work}" for beads in CHAINS) if row in by_row]
             line[2].plot([row["beads"] for row in chains], [1000 * row["us"] / row["beads"] for row in chains], **style)
-        line[2].set(xscale="log", yscale="log", xlabel="beads", ylabel="nanoseconds a bead and step", title="generated chains" + end)
+        line[2].set(xscale="log", yscale="log", xlabel="beads", ylabel="nanoseconds a bead and step", title=f"{what} of chains")
         line[2].legend(loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
     figure.tight_layout()
     figure.savefig(path, metadata={"Date": None})
@@ -213,8 +232,8 @@ def main():
     report = Report(__doc__)
     of_hierarchies, of_contacts, counts, agree = [], [], [], []
     for name, frames, radius in inputs(report.data, report.short):
-        times = 4 if report.short else max(2, min(20, 20_000 // frames.shape[1]))
-        bounded, rows = hierarchies(name, frames, radius, report.rounds, times)
+        count = 4 if report.short else max(2, min(20, 20_000 // frames.shape[1]))
+        bounded, rows = hierarchies(name, frames, radius, report.rounds, count)
         of_hierarchies += rows
         counted, rows, same = contacts(name, frames, radius, report.rounds)
         of_contacts, counts, agree = of_contacts + rows, [*counts, counted], [*agree, same]
@@ -223,8 +242,8 @@ def main():
                 [[f"{row['input']}: {row['method']}", row["us"], spread(row), *(percent(row.get(column))
                   for column in ("excess", "outside", "inflated", "box_per_sphere"))] for row in of_hierarchies])
     report.show(["contacts", "us a step", "by events", *(f"us, every {stride}" for stride in STRIDES[1:])],
-                [[f"{row['input']}: {row['method']}", row["us"], spread(row), *(row.get(f"us_{stride}") for stride in STRIDES[1:])]
-                 for row in of_contacts])
+                [[f"{row['input']}: {row['method']}", row["us"], spread(row),
+                  *(row.get(f"us_{stride}") for stride in STRIDES[1:])] for row in of_contacts])
     report.show(list(counts[0]), [list(row.values()) for row in counts])
     report.results["times"] = of_hierarchies + of_contacts
     report.claim("same contacts", "Events and quadratics find the same numbers of contacts", all(agree),

@@ -91,8 +91,8 @@ def hierarchy_steps(frames, radius, *, rounds=5):
     """Times bounding hierarchies of a chain of balls that moves on straight paths from frame to frame.
 
     A time is that of all steps. The works ``events``, ``chords``, ``tight_chords`` (within 1%), ``layered_chords`` and
-    ``box_events`` hold all beads at all times. ``updated``, ``rebuilt`` (wrapped), ``layered`` and ``boxes`` (refitted) hold them
-    at each frame.
+    ``box_events`` hold all beads at all times. ``updated``, ``rebuilt`` (wrapped), ``layered`` and ``boxes`` (refitted) hold
+    them at each frame.
 
     >>> import kds.timing
     >>> found = kds.timing.hierarchy_steps(kds.generate("random-chain", beads=20, frames=3), 1, rounds=2)
@@ -107,8 +107,8 @@ def contact_steps(frames, radius, *, apart=2, strides=(1,), rounds=5):
     """Times searches for contacts in a chain of balls that moves on straight paths from frame to frame.
 
     A time is that of all steps. The works ``events`` (the kinetic structure), ``paths`` (a cell list, then a quadratic for each
-    near pair) and ``block_paths`` find when each contact begins and ends. ``METHOD_STRIDE``, such as ``cells_8``, finds the pairs
-    at each stride-th frame: ``cells`` (cell list), ``verlet`` (Verlet list with a skin of one radius), ``blocks`` (the
+    near pair) and ``block_paths`` find when each contact begins and ends. ``METHOD_STRIDE``, such as ``cells_8``, finds the
+    pairs at each stride-th frame: ``cells`` (cell list), ``verlet`` (Verlet list with a skin of one radius), ``blocks`` (the
     tree of the detector ``auto``, rebuilt), ``wrapped`` and ``layered`` (rebuilt), and ``boxes`` (refitted). The counts are the
     ``pairs`` of all frames, and the ``begins`` and ``ends`` of contacts after the first frame.
 
