@@ -203,7 +203,7 @@ def draw(results, path):
     by_row = {row["row"]: row for row in results["rows"] + results["times"]}
     for line, methods, what, end in zip(every, (HIERARCHIES, CONTACTS), ("hierarchies", "contacts"), ("", ", contacts")):
         for k, (work, method) in enumerate(methods.items()):
-            style = {"color": f"C{k}", "marker": "ovs^D<>Pp*"[k], "label": method}
+            style = {"color": f"C{k}", "marker": "ovs^D<>Pp*"[k], "label": method, "zorder": 10 - k}
             for axes, name in zip(line, ("villin", "dhodh")):
                 row, counts = by_row[f"{name}{end}, {work}"], by_row[name]
                 at = [stride for stride in STRIDES if f"us_{stride}" in row]

@@ -1,4 +1,5 @@
-"""Times of static works on one or two frames of beads, in seconds of processor time, with the counts of these works.
+"""Times of static works on one or two frames of beads, and of steps from frame to frame, in seconds of processor time, with the
+counts of these works.
 
 Arrays of centres have the shape (beads, 3) or (beads, 2). Works that are compared run in turn, ``rounds`` times. Each function
 returns a dictionary: for each work an array of its seconds by round, and counts. Work that takes more than a second runs once.
