@@ -438,7 +438,9 @@ class AxisBoxes {
       if (node.is_bead()) {
         const BallRow<3>& ball = balls.rows()[node.first];
         const Eigen::Array3d center = Eigen::Map<const Eigen::Array3d>(ball.center.data());
-        boxes_[k] = {(center - ball.radius).matrix(), (center + ball.radius).matrix()};
+        const double reach =
+            ball.radius + 0x1p-50 * (ball.radius + center.abs().maxCoeff());  // rounds outwards
+        boxes_[k] = {(center - reach).matrix(), (center + reach).matrix()};
       } else {
         boxes_[k] = boxes_[node.left].merged(boxes_[node.right]);
       }
