@@ -285,7 +285,8 @@ def contact_intervals(frames, cutoff, apart):
             continue
         between = frames[:, i] - frames[:, j]
         start, change = between[:-1], numpy.diff(between, axis=0)
-        a, b, c = (change**2).sum(1), (start * change).sum(1), (start**2).sum(1) - cutoff**2
+        a = numpy.maximum((change**2).sum(1), 1e-30)  # beads that do not move keep their distance
+        b, c = (start * change).sum(1), (start**2).sum(1) - cutoff**2
         roots = numpy.sqrt(numpy.maximum(b**2 - a * c, 0))
         first, last = numpy.maximum((-b - roots) / a, 0), numpy.minimum((-b + roots) / a, 1)
         merged = []
@@ -349,7 +350,8 @@ def excesses(frames, radius):
         for name, at_frames, layered in (("chords", "updated", False), ("layered_chords", "layered", True)):
             first, last = (list(tree_over(frame, radius, layered).nodes()) for frame in (before, after))
             cubes = [one.radius**3 for one in smallest]
-            add(f"{name}_excess", [((1 - u) * a.radius + u * b.radius) ** 3 / cube - 1 for a, b, cube in zip(first, last, cubes)])
+            blended = [(1 - u) * a.radius + u * b.radius for a, b in zip(first, last)]
+            add(f"{name}_excess", [radius_here**3 / cube - 1 for radius_here, cube in zip(blended, cubes)])
             add(f"{at_frames}_inflated", [(a.radius + moved) ** 3 / cube - 1 for a, moved, cube in zip(first, most, cubes)])
             add(f"{at_frames}_outside", [numpy.linalg.norm(here[one] - a.center, axis=1).max() + radius > a.radius * (1 + 1e-9)
                                          for a, one in zip(first, beads)])
@@ -383,7 +385,7 @@ def compare_peers():
             check(f"peers, {name}, pairs", row["pairs"], sum(int((two[:, 1] - two[:, 0] >= 5).sum()) for two in pairs))
         if name in ("villin", "random100"):
             for column, value in excesses(frames, own_radius).items():
-                check(f"peers, {name}, {column}", True, abs(row[column] - value) < 2e-6)
+                check(f"peers, {name}, {column} is {value}", True, bool(abs(row[column] - value) < 2e-6))
 
 
 def compare_spirals():
