@@ -329,6 +329,7 @@ def compare_lifetimes():
             for figure, value in (("residence", time / ends), ("S", still / seen), ("C", again / seen)):
                 check(f"{name}, {figure} is {value}", True, bool(abs(row[figure] / value - 1) < 1e-7))
 
+
 # --- steps of experiments/paper/peers.py ---
 
 
