@@ -35,6 +35,7 @@ struct MemoryNumbers {
       return nanometres ? angstrom_of_nanometres(double{singles[i]}) : double{singles[i]};
     return nanometres ? 10 * doubles[i] : doubles[i];
   }
+  [[nodiscard]] bool empty() const { return singles == nullptr && doubles == nullptr; }
   /// Returns a hash of `count` numbers, which is not 0.
   [[nodiscard]] std::size_t hash(std::size_t first, std::size_t count) const {
     const void* const bytes =
@@ -48,9 +49,9 @@ struct MemoryNumbers {
 struct FramesInMemory::Content {
   BeadsInMemory beads;
   std::size_t frame_count = 0, bead_count = 0;
-  MemoryNumbers numbers;  // of all frames; unused if `frame` is set
-  py::object owner;       // of `numbers`
-  py::object frame;       // or a function that returns one frame
+  MemoryNumbers numbers, velocities;  // of all frames; unused if `frame` is set
+  py::object owner;                   // of both
+  py::object frame;                   // or a function that returns one frame
   /// The hash of each frame when it was read first, 0 before.
   std::unique_ptr<std::atomic<std::size_t>[]> hashes;
   /// A frame whose hash has changed, or -1. From then on no frame is read, because a reader that has failed
@@ -87,8 +88,8 @@ std::optional<Cell> cell_of(std::span<const double> numbers, std::string& doubt)
 
 class AtomsInMemory final : public AtomFrames {
  public:
-  explicit AtomsInMemory(std::shared_ptr<const FramesInMemory::Content> content)
-      : content_(std::move(content)) {}
+  AtomsInMemory(std::shared_ptr<const FramesInMemory::Content> content, bool velocities)
+      : content_(std::move(content)), velocities_(velocities) {}
 
   [[nodiscard]] std::size_t atom_count() const override { return content_->bead_count; }
   [[nodiscard]] FramesHeld held() const override { return {.whole = content_->frame_count}; }
@@ -96,14 +97,13 @@ class AtomsInMemory final : public AtomFrames {
     return content_->frame || !content_->beads.cells.empty();
   }
   void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) override {
-    frame.positions.resize(3, static_cast<Eigen::Index>(atoms.size()));
     if (content_->frame) return call(k, atoms, frame);
     const BeadsInMemory& beads = content_->beads;
     frame.stamp.number = beads.first_frame + beads.frame_step * k;
     if (!beads.times.empty()) frame.stamp.picoseconds = beads.times[k];
     if (!beads.cells.empty())
       frame.cell = cell_of(std::span(beads.cells).subspan(6 * k, 6), frame.cell_doubt);
-    copy(content_->numbers, k, 3 * k * content_->bead_count, atoms, frame);
+    copy(content_->numbers, content_->velocities, k, 3 * k * content_->bead_count, atoms, frame);
   }
   [[nodiscard]] std::vector<double> element_radii(std::vector<std::string>&) const override {
     if (!content_->beads.radii.empty()) return content_->beads.radii;
@@ -121,9 +121,11 @@ class AtomsInMemory final : public AtomFrames {
  private:
   // Copies frame k, whose numbers begin at `first`. Refuses a frame that has changed since it was read first,
   // because later results would belong to other positions than earlier ones.
-  void copy(const MemoryNumbers& numbers, std::size_t k, std::size_t first,
+  void copy(const MemoryNumbers& positions, const MemoryNumbers& velocities, std::size_t k, std::size_t first,
             std::span<const std::size_t> atoms, FrameRead& frame) const {
-    const std::size_t hash = numbers.hash(first, 3 * content_->bead_count);
+    const std::size_t count = 3 * content_->bead_count;
+    const std::size_t hash =
+        positions.hash(first, count) + (velocities.empty() ? 0 : 3 * velocities.hash(first, count));
     std::size_t before = 0;
     if (!content_->hashes[k].compare_exchange_strong(before, hash) && before != hash) content_->changed = k;
     if (const std::size_t changed = content_->changed; changed < content_->frame_count)
@@ -131,11 +133,15 @@ class AtomsInMemory final : public AtomFrames {
           "{}: frame {}: the input has changed since it was read first; expected the same positions, such as "
           "those of a copy",
           content_->beads.label, content_->beads.first_frame + content_->beads.frame_step * changed));
-    const bool nanometres = content_->beads.nanometres;
-    for (std::size_t i = 0; i < atoms.size(); ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        frame.positions(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(i)) =
-            numbers.at(first + 3 * atoms[i] + axis, nanometres);
+    const auto take = [&](const MemoryNumbers& numbers, Eigen::Matrix3Xd& to) {
+      to.resize(3, static_cast<Eigen::Index>(atoms.size()));
+      for (std::size_t i = 0; i < atoms.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          to(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(i)) =
+              numbers.at(first + 3 * atoms[i] + axis, content_->beads.nanometres);
+    };
+    take(positions, frame.positions);
+    if (velocities_ && frame.asked && !velocities.empty()) take(velocities, frame.velocities);
   }
 
   void call(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) const {
@@ -155,10 +161,16 @@ class AtomsInMemory final : public AtomFrames {
                                      label, cell.size()));
       frame.cell = cell_of(cell, frame.cell_doubt);
     }
-    copy(numbers_of(positions), k, 0, atoms, frame);
+    const py::object velocities = read[3];
+    if (!velocities.is_none() && !velocities.attr("shape").equal(positions.attr("shape")))
+      throw InputError(fmt::format("{}: its velocities have another shape than its positions", label));
+    copy(numbers_of(positions),
+         velocities.is_none() ? MemoryNumbers() : numbers_of(velocities.cast<py::array>()), k, 0, atoms,
+         frame);
   }
 
   std::shared_ptr<const FramesInMemory::Content> content_;
+  bool velocities_;  // are asked for
 };
 
 // The frames that Python has registered, by their paths.
@@ -199,7 +211,8 @@ Registered& registered() {
 
 FramesOpened open_memory(const std::filesystem::path& path, const ReadOptions& options) {
   const auto content = registered().find(path);
-  FramesOpened opened = open_atom_frames(path, options, std::make_unique<AtomsInMemory>(content));
+  FramesOpened opened =
+      open_atom_frames(path, options, std::make_unique<AtomsInMemory>(content, options.velocities));
   opened.file = content->beads.label;
   opened.chains = content->beads.chains;
   opened.bead_names = content->beads.names;
@@ -220,7 +233,8 @@ std::optional<Cell> cell_given(std::span<const double> numbers, int dimension) {
   return cell;
 }
 
-FramesInMemory::FramesInMemory(const py::array& positions, BeadsInMemory beads) {
+FramesInMemory::FramesInMemory(const py::array& positions, const std::optional<py::array>& velocities,
+                               BeadsInMemory beads) {
   const std::string& label = beads.label;
   if (positions.ndim() != 3 || positions.shape(2) != 3)
     throw InputError(fmt::format("{}: has the shape {}; expected (frames, beads, 3){}", label,
@@ -230,7 +244,13 @@ FramesInMemory::FramesInMemory(const py::array& positions, BeadsInMemory beads) 
                                      : ""));
   auto content = std::make_shared<Content>();
   content->numbers = numbers_of(positions);
-  content->owner = positions;
+  if (velocities) {
+    if (!velocities->attr("shape").equal(positions.attr("shape")))
+      throw InputError(fmt::format("velocities: have the shape {}; expected {} as the positions",
+                                   shape_text(*velocities), shape_text(positions)));
+    content->velocities = numbers_of(*velocities);
+  }
+  content->owner = py::make_tuple(positions, velocities);
   content->frame_count = static_cast<std::size_t>(positions.shape(0));
   content->bead_count = static_cast<std::size_t>(positions.shape(1));
   content->beads = std::move(beads);

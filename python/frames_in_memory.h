@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,10 +38,13 @@ struct BeadsInMemory {
 class FramesInMemory {
  public:
   /// Reads an array of the shape (frames, beads, 3) without copying it: C-contiguous, aligned, float32 or
-  /// float64. Reading throws InputError once a frame is read again and its numbers have changed.
-  FramesInMemory(const pybind11::array& positions, BeadsInMemory beads);
+  /// float64. Reading throws InputError once a frame is read again and its numbers have changed. `velocities`
+  /// is such an array too, in length per picosecond.
+  FramesInMemory(const pybind11::array& positions, const std::optional<pybind11::array>& velocities,
+                 BeadsInMemory beads);
   /// Reads frame k by calling `frame(k)`. The function returns the positions, an array (beads, 3) of float32
-  /// or float64, the time in picoseconds or None, and the cell as six numbers or None.
+  /// or float64, the time in picoseconds or None, the cell as six numbers or None, and velocities, an array
+  /// or None.
   FramesInMemory(pybind11::function frame, std::size_t frames, std::size_t bead_count, BeadsInMemory beads);
   FramesInMemory(const FramesInMemory&) = delete;
   FramesInMemory& operator=(const FramesInMemory&) = delete;

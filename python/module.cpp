@@ -103,7 +103,8 @@ void bind_frames(py::module_& module) {
         chain.bead_count = count;
       });
   py::class_<FramesInMemory, std::shared_ptr<FramesInMemory>>(module, "Frames")
-      .def(py::init<const py::array&, BeadsInMemory>(), py::arg("positions"), py::arg("beads"))
+      .def(py::init<const py::array&, const std::optional<py::array>&, BeadsInMemory>(), py::arg("positions"),
+           py::arg("velocities"), py::arg("beads"))
       .def(py::init<py::function, std::size_t, std::size_t, BeadsInMemory>(), py::arg("frame"),
            py::arg("frame_count"), py::arg("bead_count"), py::arg("beads"))
       .def_property_readonly("path", [](const FramesInMemory& frames) { return frames.path().string(); });

@@ -36,16 +36,16 @@ Field count_of(const CompareRow& row, const std::string& kind) {
 Json compared_inputs_json(const Comparison& comparison) {
   Json json = Json::array();
   for (const ComparedInput& input : comparison.inputs)
-    json.push_back(
-        {{"file", input.file},
-         {"name", input.name},
-         {"beads", input.beads},
-         {"frames", input.frames},
-         {"dimension", input.dimension},
-         {"truncated", input.truncated},
-         {"radius_min", input.radius_min},
-         {"radius_max", input.radius_max},
-         {"frame_picoseconds", input.frame_picoseconds ? Json(*input.frame_picoseconds) : Json()}});
+    json.push_back({{"file", input.file},
+                    {"name", input.name},
+                    {"beads", input.beads},
+                    {"frames", input.frames},
+                    {"dimension", input.dimension},
+                    {"truncated", input.truncated},
+                    {"radius_min", input.radius_min},
+                    {"radius_max", input.radius_max},
+                    {"frame_picoseconds", input.frame_picoseconds ? Json(*input.frame_picoseconds) : Json()},
+                    {"velocities", input.velocities ? Json(name_of(*input.velocities)) : Json()}});
   return json;
 }
 
@@ -193,8 +193,11 @@ std::string compare_table(const Comparison& comparison) {
     if (row.input != input || row.motion_name() != motion) {
       input = row.input;
       motion = row.motion_name();
-      text += fmt::format("{}{}, {} motion ({})\n  {}\n", text.empty() ? "" : "\n", one_line(input), motion,
-                          size_text(input_of(comparison, row)), lines.front());
+      const ComparedInput& compared = input_of(comparison, row);
+      const std::string_view velocities =
+          row.motion == FrameMotion::hermite ? velocities_text(compared.velocities) : "";
+      text += fmt::format("{}{}, {} motion{} ({})\n  {}\n", text.empty() ? "" : "\n", one_line(input), motion,
+                          velocities, size_text(compared), lines.front());
     }
     text += "  " + lines[r + 1] + "\n";
   }

@@ -55,6 +55,8 @@ RunOptions run_of(const CompareOptions& options, std::size_t input, FrameMotion 
   run.reading = reading_of(options, input);
   run.radius = options.radius;
   run.periodic = options.periodic;
+  if (motion == FrameMotion::hermite || std::ranges::count(options.motions, FrameMotion::hermite) == 0)
+    run.velocities = options.velocities;
   run.apart = options.apart;
   run.directions = options.directions;
   run.stretch = options.stretch;
@@ -112,10 +114,15 @@ class InputNames {
 ComparedInput look_at(const CompareOptions& options, std::size_t input, const InputNames& names,
                       const Warn& warn) {
   ComparedInput found;
+  std::vector<std::string> said;
+  const Warn once = [&](const std::string& line) {
+    if (std::ranges::count(said, line) == 0) warn(said.emplace_back(line));
+  };
+  std::optional<VelocitySource> velocities;
   for (const FrameMotion motion : options.motions) {
     const RunOptions run = run_of(options, input, motion);
-    const Scene scene = load_scene(
-        run, motion == options.motions.front() ? warn : [](const std::string&) {});
+    const Scene scene = load_scene(run, once);
+    if (scene.velocities()) velocities = scene.velocities();
     try {
       static_cast<void>(open_run(run, scene, AuditMode::none));
     } catch (const InputError& error) {
@@ -139,6 +146,7 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const In
     for (BeadId bead = 0; bead < scene.bead_count(); ++bead)
       found.bead_names.push_back(scene.bead_name(bead));
   }
+  found.velocities = velocities;
   if (strided(found.frames, options.strides.back()) < 2)
     throw InputError("--strides", fmt::format("{} leaves one of the {} frames of {}; expected two or more",
                                               options.strides.back(), found.frames, found.file));
@@ -410,6 +418,7 @@ RunOptions strided_run(const CompareOptions& options, const Comparison& comparis
                        FrameMotion motion, std::size_t stride) {
   RunOptions run = run_of(options, input, motion);
   run.reading.frames.stride *= stride;
+  if (motion == FrameMotion::hermite) run.velocities = comparison.inputs[input].velocities;
   if (run.radius == "auto" && !is_instance_file(options.inputs[input]))
     run.radius = fmt::format("{}", comparison.inputs[input].radius_min);
   return run;

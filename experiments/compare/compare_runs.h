@@ -118,7 +118,8 @@ struct ComparedInput {
   int dimension = 3;
   bool truncated = false;  ///< frames are missing at the end
   double radius_min = 0, radius_max = 0;
-  std::vector<std::string> bead_names = {};  ///< empty names if the file has none
+  std::vector<std::string> bead_names = {};       ///< empty names if the file has none
+  std::optional<VelocitySource> velocities = {};  ///< of Hermite motion, if it is compared
   std::optional<double> frame_picoseconds =
       {};  ///< from one frame to the next, on average; empty without times
 };

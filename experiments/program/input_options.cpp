@@ -204,6 +204,15 @@ OptionList<InputOptions> make_input_options() {
          o.reading.unwrap = choice_of("--unwrap", text, unwrap_names, Unwrap::none);
        },
        [](const InputOptions& o) { return std::string(o.reading.unwrap ? name_of(*o.reading.unwrap) : ""); }},
+      {{"--velocities", "NAME",
+        "velocities of Hermite motion: file (those of the frames, for TRR, AMBER NetCDF and LAMMPS dumps) or "
+        "differences (of the positions in the frames around) (default: file if all frames read have "
+        "velocities "
+        "and times, otherwise differences)"},
+       [](InputOptions& o, const std::string& text) {
+         o.velocities = choice_of("--velocities", text, velocity_source_names, VelocitySource::differences);
+       },
+       [](const InputOptions& o) { return std::string(o.velocities ? name_of(*o.velocities) : ""); }},
       {{"--no-periodic", "", "ignore periodic images of beads"},
        [](InputOptions& o, const std::string&) { o.periodic = false; },
        [](const InputOptions& o) { return o.periodic ? "" : "yes"; },
@@ -345,9 +354,18 @@ bool in_angstrom(const InputOptions& options) {
 }
 
 InputSize size_of(const Scene& scene) {
-  return {scene.bead_count(),   scene.necklaces().size(),
-          scene.frame_count(),  scene.dimension(),
-          scene.is_truncated(), {scene.stamp(0), scene.stamp(scene.frame_count() - 1)}};
+  return {scene.bead_count(),
+          scene.necklaces().size(),
+          scene.frame_count(),
+          scene.dimension(),
+          scene.is_truncated(),
+          scene.velocities(),
+          {scene.stamp(0), scene.stamp(scene.frame_count() - 1)}};
+}
+
+std::string_view velocities_text(const std::optional<VelocitySource>& velocities) {
+  if (!velocities) return "";
+  return *velocities == VelocitySource::file ? ", velocities of the file" : ", velocities by differences";
 }
 
 void add_ends(Json& input, const std::array<FrameStamp, 2>& ends) {
@@ -367,6 +385,7 @@ Json input_json(const InputOptions& options, const InputSize& size, double radiu
   json["radius_min"] = radius_min;
   json["radius_max"] = radius_max;
   json["length_unit"] = length_unit(options);
+  if (size.velocities) json["velocities"] = name_of(*size.velocities);
   add_ends(json, size.ends);
   return json;
 }

@@ -31,6 +31,7 @@ struct InputOptions {
   std::vector<std::filesystem::path> topologies = {};
   ReadOptions reading;  ///< --topology, --select, --chain (as given, for all inputs), --frames; --groups
   std::string radius = "auto";
+  std::optional<VelocitySource> velocities = {};  ///< --velocities; none: the file if all frames have them
   bool periodic = true;  ///< images of beads count where all frames have a cell; false: --no-periodic
   std::optional<std::filesystem::path> obstacle = {};  ///< --obstacle, for the commands that have it
 };
@@ -89,10 +90,13 @@ struct InputSize {
   std::optional<std::size_t> necklaces = {};  ///< empty if the result does not show it
   std::size_t frames = 0;
   int dimension = 3;
-  bool truncated = false;               ///< frames are missing at the end (FrameSource::is_truncated)
-  std::array<FrameStamp, 2> ends = {};  ///< of the first and the last frame
+  bool truncated = false;  ///< frames are missing at the end (FrameSource::is_truncated)
+  std::optional<VelocitySource> velocities = {};  ///< of Hermite motion (Scene::velocities)
+  std::array<FrameStamp, 2> ends = {};            ///< of the first and the last frame
 };
 [[nodiscard]] InputSize size_of(const Scene& scene);
+/// Returns ", velocities of the file" or the like, or an empty text.
+[[nodiscard]] std::string_view velocities_text(const std::optional<VelocitySource>& velocities);
 /// Adds `first_frame` and `last_frame`, the numbers of both frames in the file, and `picoseconds` if both
 /// frames have times.
 void add_ends(Json& input, const std::array<FrameStamp, 2>& ends);

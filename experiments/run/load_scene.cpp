@@ -40,6 +40,7 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   refuse(reading.time_step.has_value(), "--dt");
   refuse(reading.units.has_value(), "--units");
   refuse(reading.until_damage, "--until-damage");
+  refuse(options.velocities.has_value(), "--velocities");
   refuse(reading.unwrap.has_value(), "--unwrap");
   refuse(!options.periodic, "--no-periodic");
   refuse(options.radius != "auto", "--radius");
@@ -191,6 +192,11 @@ bool takes_side_chains(const std::vector<NecklaceStream>& files, const Selection
 std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
                                         const std::function<void(const std::string&)>& warn,
                                         std::size_t stride) {
+  if (options.velocities)
+    throw InputError("--velocities",
+                     fmt::format("is of Hermite curves; expected {} hermite, for a command that "
+                                 "has it",
+                                 "--motion"_arg));
   std::vector<NecklaceStream> files;
   std::vector<InputAtoms> atoms;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
@@ -255,12 +261,27 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
     if (input.radius == "array" && std::filesystem::exists(path))
       throw InputError("--radius",
                        "array is for positions in memory; expected file:PATH, with a line a bead");
-  std::unique_ptr<FileFrames> files = open_frames(input, warn);
+  InputOptions opened = input;
+  if (motion == FrameMotion::hermite) {
+    opened.reading.velocities = input.velocities != VelocitySource::differences;
+    opened.velocities.reset();
+  }
+  std::unique_ptr<FileFrames> files = open_frames(opened, warn);
   FrameSurvey survey = survey_frames(*files, input.radius == "auto", warn);
   survey.periodic = survey.periodic && input.periodic;
   const bool repeats = lone_frame != nullptr && survey.frame_count == 1;
   if (survey.frame_count < 2 && !repeats && !files->early_end().empty())
     throw InputError(fmt::format("{}; a run needs at least two frames", files->early_end()));
+  if (opened.reading.velocities && !survey.velocities && !repeats) {
+    if (input.velocities)
+      throw InputError(
+          "--velocities",
+          fmt::format("file: {}; expected velocities and ascending times in all frames",
+                      survey.lacks_velocities.empty() ? "no frame has velocities" : survey.lacks_velocities));
+    if (!survey.lacks_velocities.empty())
+      warn(fmt::format("{}: velocities are differences of frames, because {}", file_names(input),
+                       survey.lacks_velocities));
+  }
   std::unique_ptr<FrameSource> frames = std::move(files);
   if (repeats) {
     frames = std::make_unique<LoneFrameTwice>(std::move(frames));

@@ -72,6 +72,7 @@ RunReport report_of(KineticRun& run, const Scene& scene, const RunOptions& optio
   report.radius_min = *least;
   report.radius_max = *most;
   report.length_unit = length_unit(options);
+  report.velocities = scene.velocities();
   report.settings = run_options().settings(options);
   if (std::ranges::any_of(options.inputs, is_instance_file))
     for (auto& [name, value] : report.settings)
@@ -167,6 +168,7 @@ Json run_json(const RunReport& report) {
                    {"frames", report.frames},         {"dimension", report.dimension},
                    {"truncated", report.truncated},   {"radius_min", report.radius_min},
                    {"radius_max", report.radius_max}, {"length_unit", report.length_unit}};
+  if (report.velocities) json["input"]["velocities"] = name_of(*report.velocities);
   if (report.first_frame && report.last_frame)
     add_ends(json["input"], {*report.first_frame, *report.last_frame});
   json["settings"] = Json::object();

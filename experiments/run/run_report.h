@@ -53,7 +53,8 @@ struct RunReport {
   int dimension = 3;
   bool truncated = false;  ///< frames are missing at the end of the input
   double radius_min = 0, radius_max = 0;
-  std::string length_unit;  ///< of the input; empty if it has none
+  std::string length_unit;                   ///< of the input; empty if it has none
+  std::optional<VelocitySource> velocities;  ///< of Hermite motion (Scene::velocities)
   std::vector<std::pair<std::string, std::string>>
       settings;  ///< motion, kernel, audit, select, chain, frames, radius, ...
   std::vector<StructureReport> structures;

@@ -206,6 +206,7 @@ std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& re
   scene += report.radius_min == report.radius_max
                ? fmt::format(", radius {:.6g}", report.radius_min)
                : fmt::format(", radii {:.6g} to {:.6g}", report.radius_min, report.radius_max);
+  scene += velocities_text(report.velocities);
   std::vector<std::string> settings;
   for (const auto& [name, value] : report.settings)
     if (!value.empty()) settings.push_back(name + " " + value);

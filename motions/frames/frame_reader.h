@@ -40,6 +40,9 @@ struct FrameRead {
   /// One column per bead, in the file's length unit (angstrom). Readers add one column per guide.
   Eigen::Matrix3Xd positions;
   std::optional<Cell> cell;
+  /// One column per bead or guide, in angstrom per picosecond. Empty if the frame has none, or if none are
+  /// asked for (ReadOptions::velocities). A bead's periodic image has the bead's velocity.
+  Eigen::Matrix3Xd velocities = {};
   /// Why the cell in the file is not used; empty if the cell is used or the file has none.
   std::string cell_doubt = {};
   /// A warning about how this frame is read; empty if there is none.

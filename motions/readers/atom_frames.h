@@ -31,7 +31,8 @@ class AtomFrames {
   [[nodiscard]] virtual bool may_have_cell() const = 0;
   /// Reads frame k: its time, its cell, and the position of each of `atoms` (a column each, in angstrom).
   /// Calls in ascending order of k are fast. `atoms` are indices in the file, from 0, in any order. The
-  /// positions may be left out if `frame.asked` is false and the frame has no cell. Throws DamagedFrame if
+  /// positions may be left out if `frame.asked` is false and the frame has no cell. If the options ask for
+  /// velocities and the file has them, sets `frame.velocities` of a frame asked for. Throws DamagedFrame if
   /// the bytes of the frame are not what the format allows.
   virtual void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) = 0;
 

@@ -44,6 +44,7 @@ std::optional<DumpColumns> read_dump_columns(std::string_view names) {
   columns.count = fields.size();
   columns.id = column_named("id", fields);
   columns.element = column_named("element", fields);
+  columns.velocity = columns_named({"vx", "vy", "vz"}, fields);
   const CoordinateNames* taken = nullptr;
   std::vector<std::string> unread;
   for (const CoordinateNames& kind : coordinate_names) {

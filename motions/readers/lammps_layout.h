@@ -17,8 +17,9 @@ struct DumpColumns {
   std::optional<std::size_t> id, element;
   std::array<std::size_t, 3> position{};
   std::optional<std::array<std::size_t, 3>> image;  ///< flags that unwrap the position
-  bool scaled = false;                              ///< positions are fractions of the box
-  std::string note;  ///< which columns are the positions, if several could be, or if flags unwrap them
+  std::optional<std::array<std::size_t, 3>> velocity;
+  bool scaled = false;  ///< positions are fractions of the box
+  std::string note;     ///< which columns are the positions, if several could be, or if flags unwrap them
 };
 
 /// Reads the names after ITEM: ATOMS. If there are several kinds of coordinates, takes the first

@@ -39,6 +39,7 @@ class LammpsFrames final : public AtomFrames {
       : lines_(path), units_asked_(options.units) {
     count_frames();
     choose_units(options.units);
+    if (options.velocities) to_angstrom_per_picosecond_ = velocity_unit();
     if (held_.whole == 0) return;
     if (!columns_.note.empty()) notes_.push_back(columns_.note);
     read_atoms_of_first_frame();
@@ -62,12 +63,16 @@ class LammpsFrames final : public AtomFrames {
     if (!frame.asked && !frame.cell) return;
     place_atoms(atoms);
     frame.positions.resize(3, static_cast<Eigen::Index>(atoms.size()));
+    if (to_angstrom_per_picosecond_ && frame.asked) frame.velocities.resizeLike(frame.positions);
     seen_.assign(first_.atoms, false);
     for (std::size_t row = 0; row < first_.atoms; ++row) {
       require_row(k);
       const std::size_t atom = columns_.id ? atom_of_row(k) : row;
-      if (column_of_[atom] != unwanted)
-        frame.positions.col(static_cast<Eigen::Index>(column_of_[atom])) = position_of_row(k, header.box);
+      if (column_of_[atom] == unwanted) continue;
+      const auto column = static_cast<Eigen::Index>(column_of_[atom]);
+      frame.positions.col(column) = position_of_row(k, header.box);
+      if (frame.velocities.cols() > 0)
+        frame.velocities.col(column) = three_of_row(k, *columns_.velocity) * *to_angstrom_per_picosecond_;
     }
   }
 
@@ -276,6 +281,12 @@ class LammpsFrames final : public AtomFrames {
     return *units_ == LammpsUnits::real ? *time / 1e3 : *units_ == LammpsUnits::nano ? *time * 1e3 : *time;
   }
 
+  // Returns nothing if there are no velocities, or if their unit is not known.
+  std::optional<double> velocity_unit() const {
+    if (!columns_.velocity || !units_ || *units_ == LammpsUnits::lj) return std::nullopt;
+    return *units_ == LammpsUnits::real ? 1e3 : *units_ == LammpsUnits::nano ? 1e-2 : 1;
+  }
+
   DumpHeader go_to(std::size_t k) {
     lines_.seek(frames_[k].byte, frames_[k].line);
     DumpHeader header;
@@ -341,8 +352,8 @@ class LammpsFrames final : public AtomFrames {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto number = parse_double(fields_[columns[axis]]);
       if (!number)
-        fail(k,
-             fmt::format("expected a coordinate or image flag, found {}", in_quotes(fields_[columns[axis]])));
+        fail(k, fmt::format("expected a coordinate, image flag or velocity, found {}",
+                            in_quotes(fields_[columns[axis]])));
       numbers[static_cast<Eigen::Index>(axis)] = *number;
     }
     return numbers;
@@ -376,8 +387,9 @@ class LammpsFrames final : public AtomFrames {
   DumpColumns columns_;
   bool may_have_cell_ = false;
   std::optional<LammpsUnits> units_, units_asked_;
-  std::vector<std::size_t> ids_;       // sorted
-  std::vector<std::string> elements_;  // in the order of the ids
+  std::optional<double> to_angstrom_per_picosecond_;  // if velocities are read
+  std::vector<std::size_t> ids_;                      // sorted
+  std::vector<std::string> elements_;                 // in the order of the ids
   std::vector<std::size_t> wanted_, column_of_;
   std::vector<bool> seen_;
   std::vector<std::string> notes_;

@@ -81,13 +81,18 @@ FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& o
 }
 
 void check_finite(const std::string& file, const FrameRead& frame) {
-  const Eigen::Matrix3Xd& positions = frame.positions;
-  if (positions.allFinite()) return;
-  for (Eigen::Index bead = 0; bead < positions.cols(); ++bead)
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-      if (!std::isfinite(positions(axis, bead)))
-        throw InputError(fmt::format("{}: frame {}: bead {} has {} = {}, expected a finite coordinate", file,
-                                     frame.stamp.number, bead, "xyz"[axis], positions(axis, bead)));
+  const auto check = [&](const Eigen::Matrix3Xd& numbers, std::string_view prefix,
+                         std::string_view expected) {
+    if (numbers.allFinite()) return;
+    for (Eigen::Index bead = 0; bead < numbers.cols(); ++bead)
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(numbers(axis, bead)))
+          throw InputError(fmt::format("{}: frame {}: bead {} has {}{} = {}, expected a finite {}", file,
+                                       frame.stamp.number, bead, prefix, "xyz"[axis], numbers(axis, bead),
+                                       expected));
+  };
+  check(frame.positions, "", "coordinate");
+  check(frame.velocities, "v", fmt::format("velocity ({} differences needs none)", "--velocities"_arg));
 }
 
 // Returns the elements of `of_beads` that belong to one chain. Returns an empty vector if `of_beads` is
@@ -312,9 +317,9 @@ WholeChain::Outcome NecklaceStream::make_whole(Piece& piece, Eigen::Matrix3Xd& p
   return joined ? WholeChain::Outcome::joined : outcome;
 }
 
-void NecklaceStream::drop_guides(Eigen::Matrix3Xd& positions) const {
+void NecklaceStream::drop_guides(Eigen::Matrix3Xd& numbers) const {
   const auto guides = static_cast<Eigen::Index>(opened_.bonds.guides_before.size());
-  if (guides > 0) positions.conservativeResize(Eigen::NoChange, positions.cols() - guides);
+  if (guides > 0 && numbers.cols() > 0) numbers.conservativeResize(Eigen::NoChange, numbers.cols() - guides);
 }
 
 void NecklaceStream::judge_cell(FrameRead& frame) {
@@ -406,6 +411,7 @@ void NecklaceStream::follow(FrameRead& frame) {
     if (outcome == WholeChain::Outcome::doubtful) moved[piece.necklace].doubtful = true;
   }
   drop_guides(frame.positions);
+  drop_guides(frame.velocities);
   if (!frame.asked) return;
   Eigen::Index begin = 0;
   for (std::size_t n = 0; n < heads_.size(); ++n) {
@@ -455,6 +461,7 @@ bool NecklaceStream::read(FrameRead& frame) {
   for (;;) {
     frame.cell_doubt.clear();
     frame.note.clear();
+    frame.velocities.resize(3, 0);
     frame.asked = true;
     if (!opened_.frames->next(frame)) {
       surveyed_ = true;

@@ -89,7 +89,7 @@ class NecklaceStream {
   Eigen::Vector3d place_beside_earlier(const Piece& piece, const ImageBeside& beside);
   [[nodiscard]] WholeChain::Outcome make_whole(Piece& piece, Eigen::Matrix3Xd& positions,
                                                const std::optional<Images>& images);
-  void drop_guides(Eigen::Matrix3Xd& positions) const;
+  void drop_guides(Eigen::Matrix3Xd& numbers) const;
   /// Removes a cell that is not that of the coordinates.
   void judge_cell(FrameRead& frame);
   void check_bead_count(const FrameRead& frame) const;

@@ -110,7 +110,7 @@ constexpr std::array<std::pair<std::string_view, double>, 2> netcdf_angles{
 
 class NetcdfFrames final : public AtomFrames {
  public:
-  explicit NetcdfFrames(const std::filesystem::path& path)
+  NetcdfFrames(const std::filesystem::path& path, bool velocities)
       : name_(path.string()), layout_(layout_of(path)), file_(name_), input_(path) {
     check_conventions();
     const NetcdfVariable* const coordinates = layout_.find("coordinates");
@@ -133,6 +133,7 @@ class NetcdfFrames final : public AtomFrames {
     time_ = series("time", {});
     lengths_ = series("cell_lengths", {3});
     angles_ = series("cell_angles", {3});
+    if (velocities) velocities_ = series("velocities", {atoms_, 3});
     read_units();
     count_frames();
   }
@@ -149,10 +150,12 @@ class NetcdfFrames final : public AtomFrames {
     frame.cell = cell.cell;
     frame.cell_doubt = std::move(cell.doubt);
     if (!frame.asked && !frame.cell) return;
-    if (coordinates_.layout->type == NC_FLOAT)
-      read_positions(k, atoms, frame.positions, floats_);
-    else
-      read_positions(k, atoms, frame.positions, doubles_);
+    if (const auto unwritten = read_atoms(coordinates_, k, atoms, frame.positions))
+      fail_unwritten(k, *unwritten);
+    if (to_angstrom_ != 1) frame.positions = frame.positions.unaryExpr(&angstrom_of_nanometres);
+    if (!velocities_ || !frame.asked) return;
+    if (read_atoms(*velocities_, k, atoms, frame.velocities)) frame.velocities.resize(3, 0);
+    frame.velocities *= to_angstrom_per_picosecond_;
   }
 
  private:
@@ -201,6 +204,7 @@ class NetcdfFrames final : public AtomFrames {
         throw InputError(fmt::format("{}: expected cell_angles in degree or radian, found {}", name_,
                                      in_quotes(angles_->units)));
     }
+    read_velocity_unit();
     if (!time_) return;
     if (const auto unit = unit_of(time_->units.empty() ? "picosecond" : time_->units, netcdf_times)) {
       to_picoseconds_ = *unit;
@@ -210,6 +214,23 @@ class NetcdfFrames final : public AtomFrames {
         fmt::format("times are left unread: expected them in picosecond, femtosecond or nanosecond, found {}",
                     in_quotes(time_->units)));
     time_.reset();
+  }
+
+  // The unit is a length per time, as in angstrom/picosecond.
+  void read_velocity_unit() {
+    if (!velocities_) return;
+    const std::string_view units = velocities_->units;
+    const std::size_t slash = units.find('/');
+    const auto length = unit_of(units.substr(0, slash), netcdf_lengths);
+    const auto time = slash == units.npos ? std::nullopt : unit_of(units.substr(slash + 1), netcdf_times);
+    if (length && time) {
+      to_angstrom_per_picosecond_ = *length / *time;
+      return;
+    }
+    notes_.push_back(
+        fmt::format("velocities are left unread: expected them in angstrom/picosecond or the like, found {}",
+                    in_quotes(units)));
+    velocities_.reset();
   }
 
   double length_unit(const NetcdfSeries& series, const char* name) {
@@ -227,8 +248,9 @@ class NetcdfFrames final : public AtomFrames {
   // Counts the frames that are there with all their bytes.
   void count_frames() {
     held_.whole = static_cast<std::size_t>(frames_);
-    for (const NetcdfSeries* series : {&coordinates_, time_ ? &*time_ : nullptr,
-                                       lengths_ ? &*lengths_ : nullptr, angles_ ? &*angles_ : nullptr}) {
+    for (const NetcdfSeries* series :
+         {&coordinates_, time_ ? &*time_ : nullptr, lengths_ ? &*lengths_ : nullptr,
+          angles_ ? &*angles_ : nullptr, velocities_ ? &*velocities_ : nullptr}) {
       if (series == nullptr) continue;
       const NetcdfVariable& variable = *series->layout;
       const std::uint64_t bytes =
@@ -303,27 +325,34 @@ class NetcdfFrames final : public AtomFrames {
                                                               : xdr_number<std::int32_t>(from));
   }
 
-  // Reads from the first to the last of the wanted atoms at once. Floats are scaled and converted as floats,
-  // as other programs do.
+  // Reads three scaled numbers of each atom. Returns the first atom that was not written, if there is one.
+  std::optional<std::size_t> read_atoms(const NetcdfSeries& series, std::size_t k,
+                                        std::span<const std::size_t> atoms, Eigen::Matrix3Xd& to) {
+    to.resize(3, static_cast<Eigen::Index>(atoms.size()));
+    return series.layout->type == NC_FLOAT ? read_atoms(series, k, atoms, to, floats_)
+                                           : read_atoms(series, k, atoms, to, doubles_);
+  }
+
+  // Reads from the first to the last of the wanted atoms at once. Floats are scaled as floats, as other
+  // programs do.
   template <class Number>
-  void read_positions(std::size_t k, std::span<const std::size_t> atoms, Eigen::Matrix3Xd& positions,
-                      std::vector<Number>& numbers) {
-    positions.resize(3, static_cast<Eigen::Index>(atoms.size()));
-    if (atoms.empty()) return;
+  std::optional<std::size_t> read_atoms(const NetcdfSeries& series, std::size_t k,
+                                        std::span<const std::size_t> atoms, Eigen::Matrix3Xd& to,
+                                        std::vector<Number>& numbers) {
+    if (atoms.empty()) return std::nullopt;
     const auto [least, most] = std::minmax_element(atoms.begin(), atoms.end());
     const std::size_t first = *least, span = *most - *least + 1;
     numbers.resize(3 * span);
-    read_values(coordinates_, k, 3 * first, 3 * span, numbers.data());
-    const auto scale = static_cast<Number>(coordinates_.scale);
-    const bool is_nanometres = to_angstrom_ != 1;
+    read_values(series, k, 3 * first, 3 * span, numbers.data());
+    const auto scale = static_cast<Number>(series.scale);
     for (std::size_t bead = 0; bead < atoms.size(); ++bead)
       for (std::size_t axis = 0; axis < 3; ++axis) {
         Number value = numbers[3 * (atoms[bead] - first) + axis];
-        if (value == static_cast<Number>(NC_FILL_FLOAT)) fail_unwritten(k, atoms[bead]);
+        if (value == static_cast<Number>(NC_FILL_FLOAT)) return atoms[bead];
         if (scale != 1) value *= scale;
-        positions(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(bead)) =
-            is_nanometres ? angstrom_of_nanometres(value) : value;
+        to(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(bead)) = value;
       }
+    return std::nullopt;
   }
 
   [[noreturn]] void fail_unwritten(std::size_t k, std::size_t atom) const {
@@ -343,8 +372,9 @@ class NetcdfFrames final : public AtomFrames {
   std::uint64_t frames_ = 0;  // number by the header, if it has one, else by the file's size
   bool is_counted_ = true;
   NetcdfSeries coordinates_;
-  std::optional<NetcdfSeries> time_, lengths_, angles_;
-  double to_angstrom_ = 1, cell_to_angstrom_ = 1, to_degrees_ = 1, to_picoseconds_ = 1;
+  std::optional<NetcdfSeries> time_, lengths_, angles_, velocities_;
+  double to_angstrom_ = 1, cell_to_angstrom_ = 1, to_degrees_ = 1, to_picoseconds_ = 1,
+         to_angstrom_per_picosecond_ = 1;
   FramesHeld held_;
   std::vector<std::string> notes_;
   std::vector<float> floats_;
@@ -358,8 +388,8 @@ bool looks_like_netcdf(std::string_view start) {
   return start.size() >= 4 && start.starts_with("CDF") && (start[3] == 1 || start[3] == 2 || start[3] == 5);
 }
 
-std::unique_ptr<AtomFrames> open_netcdf(const std::filesystem::path& path, const ReadOptions&) {
-  return std::make_unique<NetcdfFrames>(path);
+std::unique_ptr<AtomFrames> open_netcdf(const std::filesystem::path& path, const ReadOptions& options) {
+  return std::make_unique<NetcdfFrames>(path, options.velocities);
 }
 
 }  // namespace kds

@@ -51,6 +51,7 @@ struct ReadOptions {
   /// None: chains; but beads for a file that names no molecules and whose beads are a fluid
   /// (SequenceInCell).
   std::optional<Unwrap> unwrap = {};
+  bool velocities = false;             ///< velocities are read, where a format has them
   std::vector<Selection> groups = {};  ///< groups of the selected beads, at most eight (BeadGroups)
 };
 

@@ -27,16 +27,16 @@ struct TrrHeader {
   std::size_t real = 4;     // bytes of a number
   std::size_t atoms = 0;
   double time = 0;
-  std::uint64_t box = 0, tensors = 0, positions = 0, others = 0;  // bytes
+  std::uint64_t box = 0, tensors = 0, positions = 0, velocities = 0, forces = 0;  // bytes
 
   static constexpr std::size_t most_size = 92;
   [[nodiscard]] std::uint64_t positions_begin() const { return begin + size + box + tensors; }
-  [[nodiscard]] std::uint64_t end() const { return positions_begin() + positions + others; }
+  [[nodiscard]] std::uint64_t end() const { return positions_begin() + positions + velocities + forces; }
 };
 
 class TrrFrames final : public AtomFrames {
  public:
-  explicit TrrFrames(const std::filesystem::path& path) : input_(path) {
+  TrrFrames(const std::filesystem::path& path, bool velocities) : input_(path), velocities_(velocities) {
     const InputFile::Length length = input_.length();
     length_ = length.bytes;
     held_.end = length_;
@@ -66,11 +66,9 @@ class TrrFrames final : public AtomFrames {
     frame.cell = cell.cell;
     frame.cell_doubt = std::move(cell.doubt);
     if (!frame.asked && !frame.cell) return;
-    frame.positions.resize(3, static_cast<Eigen::Index>(atoms.size()));
-    if (header->real == 4)
-      read_positions<float>(*header, atoms, frame.positions);
-    else
-      read_positions<double>(*header, atoms, frame.positions);
+    read_atoms(*header, header->positions_begin(), atoms, frame.positions);
+    if (velocities_ && frame.asked && header->velocities > 0)
+      read_atoms(*header, header->positions_begin() + header->positions, atoms, frame.velocities);
   }
 
  private:
@@ -86,15 +84,22 @@ class TrrFrames final : public AtomFrames {
     return xdr_box<Real>(bytes.data());
   }
 
+  // Reads the positions or velocities, which begin at `begin` in the file.
+  void read_atoms(const TrrHeader& header, std::uint64_t begin, std::span<const std::size_t> atoms,
+                  Eigen::Matrix3Xd& numbers) {
+    numbers.resize(3, static_cast<Eigen::Index>(atoms.size()));
+    header.real == 4 ? read_numbers<float>(begin, atoms, numbers)
+                     : read_numbers<double>(begin, atoms, numbers);
+  }
+
   // Reads the bytes from the first of the atoms to the last.
   template <class Real>
-  void read_positions(const TrrHeader& header, std::span<const std::size_t> atoms,
-                      Eigen::Matrix3Xd& positions) {
+  void read_numbers(std::uint64_t begin, std::span<const std::size_t> atoms, Eigen::Matrix3Xd& numbers) {
     if (atoms.empty()) return;
     const auto [least, greatest] = std::ranges::minmax(atoms);
     bytes_.resize((greatest - least + 1) * 3 * sizeof(Real));
-    load(header.positions_begin() + least * 3 * sizeof(Real), bytes_.data(), bytes_.size());
-    double* to = positions.data();
+    load(begin + least * 3 * sizeof(Real), bytes_.data(), bytes_.size());
+    double* to = numbers.data();
     for (const std::size_t atom : atoms) {
       const char* const from = bytes_.data() + (atom - least) * 3 * sizeof(Real);
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -189,11 +194,13 @@ class TrrFrames final : public AtomFrames {
     header.box = integer(box);
     header.tensors = std::uint64_t{integer(virial)} + integer(pressure);
     header.positions = integer(positions);
-    header.others = std::uint64_t{integer(velocities)} + integer(forces);
+    header.velocities = integer(velocities);
+    header.forces = integer(forces);
     return header;
   }
 
   InputFile input_;
+  bool velocities_;  // are asked for
   std::uint64_t length_ = 0;
   std::size_t atoms_ = 0;
   bool has_box_ = false;
@@ -207,8 +214,8 @@ class TrrFrames final : public AtomFrames {
 
 bool looks_like_trr(std::string_view start) { return start.starts_with(trr_start); }
 
-std::unique_ptr<AtomFrames> open_trr(const std::filesystem::path& path, const ReadOptions&) {
-  return std::make_unique<TrrFrames>(path);
+std::unique_ptr<AtomFrames> open_trr(const std::filesystem::path& path, const ReadOptions& options) {
+  return std::make_unique<TrrFrames>(path, options.velocities);
 }
 
 }  // namespace kds

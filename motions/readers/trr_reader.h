@@ -5,6 +5,7 @@
 // sizes of what follows in bytes, the number of atoms, the step), time (ps) and lambda, then the box (nm),
 // two tensors, positions (nm), velocities and forces, each unless its size is 0. All reals have single or
 // double precision, which follows from the sizes. Doubles are rounded to floats, as mdtraj and MDAnalysis do.
+// Velocities are read if the options ask for them; a frame may have none.
 //
 // Frames without positions hold velocities or forces only. Such frames are left out with a note.
 

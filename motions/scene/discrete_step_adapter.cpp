@@ -14,6 +14,7 @@ DiscreteStepAdapter::DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, co
                                          FrameMotion motion)
     : source_(std::move(frames)),
       motion_(motion),
+      velocities_(motion == FrameMotion::hermite && survey.velocities),
       plane_(survey.plane),
       periodic_(survey.periodic),
       dimension_(survey.plane ? 2 : 3),
@@ -33,6 +34,7 @@ DiscreteStepAdapter::DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, in
 DiscreteStepAdapter::DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, const DiscreteStepAdapter& like)
     : source_(std::move(frames)),
       motion_(like.motion_),
+      velocities_(like.velocities_),
       plane_(like.plane_),
       periodic_(like.periodic_),
       dimension_(like.dimension_),
@@ -60,9 +62,21 @@ std::size_t DiscreteStepAdapter::known_steps() const {
   return source_->is_open() ? steps - std::min(steps, reach()) : steps;
 }
 
+std::optional<VelocitySource> DiscreteStepAdapter::velocities() const {
+  if (motion_ != FrameMotion::hermite) return std::nullopt;
+  return velocities_ ? VelocitySource::file : VelocitySource::differences;
+}
+
 bool DiscreteStepAdapter::read_next() {
   if (!source_->next(spare_) || spare_.positions.cols() != static_cast<Eigen::Index>(beads_)) return false;
   if (plane_) plane_->lay(spare_.positions);
+  if (velocities_) {
+    if (spare_.velocities.cols() != spare_.positions.cols() || !spare_.stamp.picoseconds)
+      throw InputError(
+          fmt::format("frame {} has lost its velocities or its time since the input was first read",
+                      spare_.stamp.number));
+    if (plane_) plane_->lay(spare_.velocities);
+  }
   if (window_.size() < 2 + 2 * reach()) {
     window_.push_back(std::exchange(spare_, {}));
   } else {  // the memory of the oldest frame serves the next one
@@ -125,6 +139,10 @@ double DiscreteStepAdapter::coordinate(BeadId bead, int k, int axis) const {
 }
 
 double DiscreteStepAdapter::third_of_velocity(std::size_t frame, BeadId bead, int axis) const {
+  if (velocities_) {
+    const double picoseconds = *held(step_ + 1).stamp.picoseconds - *held(step_).stamp.picoseconds;
+    return held(frame).velocities(axis, static_cast<Eigen::Index>(bead)) * picoseconds / 3;
+  }
   const std::size_t before = frame == 0 ? 0 : frame - 1;
   const std::size_t after = std::min(frame + 1, frame_count_ - 1);
   return (position(after, bead, axis) - position(before, bead, axis)) /

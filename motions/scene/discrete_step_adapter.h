@@ -3,8 +3,9 @@
 // curve for each bead.
 //
 // The adapter reads frames from a FrameSource (motions/frames/frame_source.h). The adapter holds the window
-// of frames that one step needs: two, or four for Hermite curves. Steps are fast to reach in ascending order.
-// To go back, the source is read again from the start, or from anywhere if its frames are in memory.
+// of frames that one step needs: two, or four for Hermite curves without velocities in the frames. Steps are
+// fast to reach in ascending order. To go back, the source is read again from the start, or from anywhere if
+// its frames are in memory.
 //
 // To add a way to join frames, add an enumerator to FrameMotion and its name, and extend degree(), reach()
 // and coordinate().
@@ -26,8 +27,9 @@ namespace kds {
 /// How beads move between sampled frames.
 enum class FrameMotion {
   linear,
-  /// Cubic Hermite curves. Velocities are central differences over frames, one-sided at the first and last
-  /// frame, so the motion is continuously differentiable up to rounding.
+  /// Cubic Hermite curves. Velocities are those of the frames if all of them have velocities and times.
+  /// Otherwise they are central differences over frames, one-sided at the first and last frame. Either way,
+  /// the motion is continuously differentiable up to rounding.
   hermite,
   /// Linear, with weights such that each sphere moves on a straight line in lifted space (lifted_motion.h).
   lifted,
@@ -51,12 +53,15 @@ class DiscreteStepAdapter final : public StepSource {
   [[nodiscard]] int degree() const override { return motion_ == FrameMotion::hermite ? 3 : 1; }
   [[nodiscard]] bool is_lifted() const override { return motion_ == FrameMotion::lifted; }
   [[nodiscard]] std::size_t frame_count() const override { return frame_count_; }
-  /// While frames may be added, a Hermite step is known one frame later than a linear one.
+  [[nodiscard]] std::optional<VelocitySource> velocities() const override;
+  /// While frames may be added, a step that needs `reach` is known one frame later than others.
   [[nodiscard]] std::size_t known_steps() const override;
 
   void read_on() override;
   [[nodiscard]] FrameBuffer* buffer() override;
-  [[nodiscard]] std::size_t reach() const override { return motion_ == FrameMotion::hermite ? 1 : 0; }
+  [[nodiscard]] std::size_t reach() const override {
+    return motion_ == FrameMotion::hermite && !velocities_ ? 1 : 0;
+  }
   [[nodiscard]] std::unique_ptr<StepSource> over(std::unique_ptr<FrameSource> frames) const override;
   /// Throws InputError if the frame is gone, like go_to().
   [[nodiscard]] FrameStamp stamp(std::size_t frame) override;
@@ -81,12 +86,13 @@ class DiscreteStepAdapter final : public StepSource {
   [[nodiscard]] double position(std::size_t frame, BeadId bead, int axis) const {
     return held(frame).positions(axis, static_cast<Eigen::Index>(bead));
   }
-  /// Returns a third of a bead's velocity at a frame, per step.
+  /// Returns a third of a bead's velocity at an end of the present step, per step.
   [[nodiscard]] double third_of_velocity(std::size_t frame, BeadId bead, int axis) const;
 
   std::unique_ptr<FrameSource> source_;
   FrameBuffer* buffer_ = nullptr;  ///< the source, once frames are read ahead
   FrameMotion motion_;
+  bool velocities_ = false;         ///< Hermite curves have the velocities of the frames
   std::optional<AxisPlane> plane_;  ///< none: frames are taken as they are
   bool periodic_ = false;           ///< FrameSurvey::periodic
   int dimension_;

@@ -55,10 +55,18 @@ bool FileFrames::next(FrameRead& frame) {
   ++next_;
   frame.cell = common_cell();
   frame.positions.resize(3, static_cast<Eigen::Index>(count_beads(necklaces_)));
+  bool has_velocities = false, lacks_velocities = false;  // files that move
+  for (std::size_t f = 0; f < files_.size(); ++f)
+    if (!at_rest_[f]) (present_[f].velocities.cols() > 0 ? has_velocities : lacks_velocities) = true;
+  frame.velocities.setZero(3, has_velocities && !lacks_velocities ? frame.positions.cols() : 0);
   Eigen::Index begin = 0;
-  for (const FrameRead& of_file : present_) {
-    frame.positions.middleCols(begin, of_file.positions.cols()) = of_file.positions;
-    begin += of_file.positions.cols();
+  for (std::size_t f = 0; f < files_.size(); ++f) {
+    const FrameRead& of_file = present_[f];
+    const Eigen::Index beads = of_file.positions.cols();
+    frame.positions.middleCols(begin, beads) = of_file.positions;
+    if (frame.velocities.cols() > 0 && !at_rest_[f])
+      frame.velocities.middleCols(begin, beads) = of_file.velocities;
+    begin += beads;
   }
   return true;
 }

@@ -57,13 +57,14 @@ std::optional<Cell> AxisPlane::laid(const Cell& cell) const {
   return count == 0 ? std::nullopt : std::optional(in_plane);
 }
 
-void PlaneSearch::add(const Eigen::Matrix3Xd& frame) {
-  if (!begun_ && frame.cols() > 3)
+void PlaneSearch::add(const FrameRead& frame) {
+  if (!begun_ && frame.positions.cols() > 3)
     for (const auto& axes : {std::array<Eigen::Index, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}})
-      left_.push_back({axes, frame(axes[2], 0)});
+      left_.push_back({axes, frame.positions(axes[2], 0)});
   begun_ = true;
   std::erase_if(left_, [&](const AxisPlane& plane) {
-    return !(frame.row(plane.axes[2]).array() == plane.height).all();
+    return !(frame.positions.row(plane.axes[2]).array() == plane.height).all() ||
+           !(frame.velocities.row(plane.axes[2]).array() == 0).all();
   });
 }
 
@@ -137,6 +138,26 @@ void CellSurvey::add(const FrameRead& frame) {
   last_number_ = frame.stamp.number;
 }
 
+void VelocitySurvey::add(const FrameRead& frame) {
+  const bool has_velocities = frame.velocities.cols() > 0;
+  any_ = any_ || has_velocities;
+  const auto &time = frame.stamp.picoseconds, &time_before = last_.stamp.picoseconds;
+  const bool is_later = frames_ == 0 || (time && time_before && *time > *time_before);
+  if (lacks_.empty() && !(has_velocities && time && is_later))
+    lacks_ = fmt::format("frame {} {}", frame.stamp.number,
+                         !has_velocities ? "has no velocities"
+                         : !time         ? "has no time"
+                                         : "is not later than the frame before");
+  if (has_velocities && last_.velocities.cols() > 0 && lacks_.empty()) {
+    const Eigen::Matrix3Xd move = frame.positions - last_.positions;
+    moved_ += move.squaredNorm();
+    left_ += (move - (*time - *time_before) / 2 * (frame.velocities + last_.velocities)).squaredNorm();
+  }
+  if (has_velocities) last_ = frame;
+  last_.stamp = frame.stamp;
+  ++frames_;
+}
+
 bool CellSurvey::is_periodic(const std::optional<AxisPlane>& plane) const {
   if (with_cell_ == 0 || without_cell_ > 0 || !alike_) return false;
   return !plane || in_plane_[static_cast<std::size_t>(plane->axes[2])];
@@ -176,6 +197,7 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   FrameSurvey survey;
   PlaneSearch planes;
   CellSurvey cells;
+  VelocitySurvey velocities;
   std::string doubt;  // about the first necklace whose unit is doubtful
   for (FrameRead frame; frames.next(frame); ++survey.frame_count) {
     if (survey.frame_count == 0) {
@@ -183,8 +205,9 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
       survey.first_positions = frame.positions;
     }
     survey.last = frame.stamp;
-    planes.add(frame.positions);
+    planes.add(frame);
     cells.add(frame);
+    velocities.add(frame);
     Eigen::Index begin = 0;
     for (const NecklaceBeads& necklace : necklaces) {
       const auto beads = static_cast<Eigen::Index>(necklace.count);
@@ -200,6 +223,8 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   survey.plane = planes.plane();
   survey.periodic = cells.is_periodic(survey.plane);
   if (!survey.periodic) survey.lacks_images = cells.why_not();
+  survey.velocities = velocities.all();
+  if (!survey.velocities) survey.lacks_velocities = velocities.why_not();
   if (!doubt.empty()) warn(doubt);
   if (warn)
     for (const std::string& line : frames.warnings()) warn(line);
@@ -210,6 +235,13 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
         "vector ({:.4g}), so the paths of images are a guess ({})",
         necklaces.front().file, jumps.first_frame, jumps.change, jumps.half_cell,
         counted(jumps.count, "such change")));
+  constexpr double least_explained = 0.25;
+  if (warn && survey.velocities && velocities.explained() < least_explained)
+    warn(
+        fmt::format("{}: velocities explain {:.0f}% of the moves between frames: the frames are too far "
+                    "apart for them, or "
+                    "times or units are wrong ({} differences)",
+                    necklaces.front().file, 100 * std::max(0.0, velocities.explained()), "--velocities"_arg));
   frames.seek(0);
   return survey;
 }

@@ -30,7 +30,8 @@ struct AxisPlane {
 /// Finds a plane that contains all beads of all frames.
 class PlaneSearch {
  public:
-  void add(const Eigen::Matrix3Xd& frame);
+  /// Adds positions, or velocities. Velocities of beads that stay in the plane have no part across it.
+  void add(const FrameRead& frame);
   /// Returns the plane, or nothing if there is none or if there are fewer than four beads, which always lie
   /// in some plane.
   [[nodiscard]] std::optional<AxisPlane> plane() const;
@@ -98,6 +99,27 @@ class CellSurvey {
   CellJumps jumps_;
 };
 
+/// Finds out whether Hermite curves can have the velocities of the frames.
+class VelocitySurvey {
+ public:
+  void add(const FrameRead& frame);
+  /// Returns whether there are two frames or more, all with velocities and with times that ascend.
+  [[nodiscard]] bool all() const { return frames_ > 1 && lacks_.empty(); }
+  /// Returns why not, or an empty text if no frame has velocities.
+  [[nodiscard]] std::string why_not() const { return any_ ? lacks_ : ""; }
+  /// Returns the share of the beads' moves from frame to frame that the velocities explain: 1 minus the mean
+  /// square of what is left of a move, over that of the moves, if the mean velocity of both frames is taken
+  /// off.
+  [[nodiscard]] double explained() const { return 1 - left_ / moved_; }
+
+ private:
+  FrameRead last_;
+  std::size_t frames_ = 0;
+  bool any_ = false;
+  std::string lacks_;  // about the first frame that is unfit
+  double moved_ = 0, left_ = 0;
+};
+
 struct FrameSurvey {
   std::size_t frame_count = 0;
   FrameStamp first, last;
@@ -107,7 +129,9 @@ struct FrameSurvey {
   LongestBond bonds;  ///< empty unless requested
   /// All frames have a cell that the scene can use, so beads have images.
   bool periodic = false;
-  std::string lacks_images = {};  ///< why beads have no images, if any frame has a cell; for messages
+  std::string lacks_images = {};      ///< why beads have no images, if any frame has a cell; for messages
+  bool velocities = false;            ///< VelocitySurvey::all
+  std::string lacks_velocities = {};  ///< why not, for messages; empty if they are used or not asked for
 };
 
 /// Reads all frames and starts again at the first. Passes the source's warnings to `warn`. Throws InputError

@@ -83,6 +83,8 @@ class Scene {
   [[nodiscard]] int dimension() const { return steps_->dimension(); }
   [[nodiscard]] int degree() const { return steps_->degree(); }
   [[nodiscard]] bool is_lifted() const { return steps_->is_lifted(); }
+  /// Returns where the velocities of Hermite curves come from, or nothing for another motion or an instance.
+  [[nodiscard]] std::optional<VelocitySource> velocities() const { return steps_->velocities(); }
   [[nodiscard]] std::size_t bead_count() const { return radii_.size(); }
   /// Returns the number of frames. An instance has two, u = 0 and u = 1. For pushed frames, returns how many
   /// have been pushed.

@@ -3,9 +3,11 @@
 // (discrete_step_adapter.h) makes steps from frames. InstanceStep is the single step of an instance file.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "motions/base/bead.h"
 #include "motions/frames/frame_buffer.h"
@@ -26,6 +28,17 @@ struct CellEnds {
   Cell start, end;
 };
 
+/// Where the velocities of Hermite curves come from.
+enum class VelocitySource {
+  differences,  ///< of the frames around
+  file,
+};
+/// Names, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 2> velocity_source_names{"differences", "file"};
+[[nodiscard]] constexpr std::string_view name_of(VelocitySource source) {
+  return velocity_source_names[static_cast<std::size_t>(source)];
+}
+
 class StepSource {
  public:
   virtual ~StepSource() = default;
@@ -33,6 +46,8 @@ class StepSource {
   [[nodiscard]] virtual int dimension() const = 0;
   [[nodiscard]] virtual int degree() const = 0;
   [[nodiscard]] virtual bool is_lifted() const { return false; }
+  /// Returns where the velocities of Hermite curves come from, or nothing for other curves.
+  [[nodiscard]] virtual std::optional<VelocitySource> velocities() const { return std::nullopt; }
   /// Returns the number of frames so far. Step k lies between frames k and k+1.
   [[nodiscard]] virtual std::size_t frame_count() const = 0;
   /// Returns the number of steps whose motion is known.

@@ -237,28 +237,34 @@ class _Kept:
             self.quiet.__exit__(*raised)
 
 
-def _collect_group(group, beads, chosen):
-    """Copies the frames of an AtomGroup. If there is a cell, the frames between those asked for are copied too, because
-    the library follows the images of chains from frame to frame."""
+def _collect_group(group, beads, chosen, wants_velocities):
+    """Copies the frames of an AtomGroup, and their velocities if all frames have them. If there is a cell, the frames
+    between those asked for are copied too, because the library follows the images of chains from frame to frame."""
     atoms = np.array(group.ix)
     with _Kept(group.universe.trajectory) as trajectory:
         trajectory[chosen.start]
         has_cell = trajectory.ts.dimensions is not None
         read = range(chosen.start, chosen[-1] + 1) if has_cell else chosen
         positions = np.empty((len(read), len(atoms), 3), dtype=np.float32)
+        velocities = np.empty_like(positions) if wants_velocities and trajectory.ts.has_velocities else None
         times, cells = [], []
         for k, ts in enumerate(trajectory[read.start:read.stop:read.step]):
             positions[k] = _positions_of_group(group, atoms, ts.frame)
+            if velocities is not None and ts.has_velocities:
+                velocities[k] = group.velocities
+            elif velocities is not None:
+                warn([f"AtomGroup: velocities are differences of frames, because frame {ts.frame} has no velocities"])
+                velocities = None
             if _has_times(trajectory):
                 times.append(ts.time)
             if has_cell:
                 cells.extend(np.zeros(6) if ts.dimensions is None else np.asarray(ts.dimensions, dtype=float))
     beads.times, beads.cells = times, cells
     beads.first_frame, beads.frame_step = read.start, read.step
-    return positions, chosen.step // read.step
+    return positions, chosen.step // read.step, velocities
 
 
-def _pull_group(group):
+def _pull_group(group, wants_velocities):
     """Returns a function that reads one frame of an AtomGroup."""
     atoms = np.array(group.ix)
 
@@ -267,12 +273,13 @@ def _pull_group(group):
             ts = trajectory[frame]
             positions = plain(f"frame {frame}", _positions_of_group(group, atoms, frame))
             cell = None if ts.dimensions is None else [float(length) for length in ts.dimensions]
-            return positions, float(ts.time) if _has_times(trajectory) else None, cell
+            velocities = plain("velocities", group.velocities) if wants_velocities and ts.has_velocities else None
+            return positions, float(ts.time) if _has_times(trajectory) else None, cell, velocities
 
     return read
 
 
-def _open_group(group, chosen_of, pull, wants_elements, necklaces, groups):
+def _open_group(group, chosen_of, pull, wants_elements, wants_velocities, necklaces, groups):
     trajectory = group.universe.trajectory
     filename = getattr(trajectory, "filename", None)
     label = os.path.basename(str(filename)) if filename else "AtomGroup"
@@ -282,9 +289,9 @@ def _open_group(group, chosen_of, pull, wants_elements, necklaces, groups):
     chosen = chosen_of(len(trajectory), label)
     if pull:
         more += ["--frames", f"{chosen.start}:{chosen[-1] + 1}:{chosen.step}"]
-        return beads, more, (_pull_group(group), len(trajectory), len(group))
-    positions, stride = _collect_group(group, beads, chosen)
-    return beads, more + (["--frames", f"::{stride}"] if stride > 1 else []), (positions,)
+        return beads, more, (_pull_group(group, wants_velocities), len(trajectory), len(group))
+    positions, stride, velocities = _collect_group(group, beads, chosen, wants_velocities)
+    return beads, more + (["--frames", f"::{stride}"] if stride > 1 else []), (positions, velocities)
 
 
 def _open_mdtraj(trajectory, chosen_of, wants_elements, necklaces, groups, dt):
@@ -348,7 +355,7 @@ def _open_positions(positions, beads, chosen_of, more):
         chosen = chosen_of(len(positions), beads.label)
         if chosen != range(len(positions)):
             more = more + ["--frames", f"{chosen.start}:{chosen[-1] + 1}:{chosen.step}"]
-    return beads, more, (plain(beads.label, positions),)
+    return beads, more, (plain(beads.label, positions), None)
 
 
 def _path_text(path):
@@ -359,7 +366,9 @@ def _path_text(path):
     return os.path.join(".", text) if text.startswith("-") else text
 
 
-def _open_paths(paths, start, stop, step, units, necklaces, times, groups, radius):
+def _open_paths(paths, start, stop, step, units, necklaces, times, velocities, groups, radius):
+    if velocities is not None and not isinstance(velocities, str):
+        raise InputError("velocities: an array is for positions in memory; expected 'file' or 'differences'")
     for name, value in (("necklaces", necklaces), ("times", times)):
         if value is not None:
             raise InputError(f"{name}: is for positions in memory, not for files; expected chain or dt")
@@ -373,15 +382,17 @@ def _open_paths(paths, start, stop, step, units, necklaces, times, groups, radiu
         more += ["--groups", *(str(group) for group in groups)]
     if radius is not None:
         more += ["--radius", str(radius)]
+    if velocities is not None:
+        more += ["--velocities", velocities]
     return Input([*(_path_text(path) for path in paths), *more])
 
 
-def open_input(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, groups=None,
-               radius=None, pull=False, options=None):
+def open_input(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, velocities=None,
+               groups=None, radius=None, pull=False, options=None):
     """Opens any input. `pull` reads the frames of an AtomGroup one at a time instead of copying them."""
     if is_path(source) or is_paths(source):
         paths = [source] if is_path(source) else source
-        return _open_paths(paths, start, stop, step, units, necklaces, times, groups, radius)
+        return _open_paths(paths, start, stop, step, units, necklaces, times, velocities, groups, radius)
 
     for name in ("topology", "select", "chain", "format", "until_damage"):
         if (options or {}).get(name):
@@ -399,7 +410,11 @@ def open_input(source, *, start=None, stop=None, step=None, units=None, necklace
 
     wants_elements = isinstance(radius, str) and radius.startswith("element")
     if is_atom_group(source):
-        beads, more, frames = _open_group(source, chosen_of, pull, wants_elements, necklaces, groups)
+        if velocities is not None and not isinstance(velocities, str):
+            raise InputError("velocities: an AtomGroup has its own; expected 'file' or 'differences'")
+        motions = [(options or {}).get(name) for name in ("motion", "motions")]
+        wants_velocities = velocities != "differences" and "hermite" in str(motions)
+        beads, more, frames = _open_group(source, chosen_of, pull, wants_elements, wants_velocities, necklaces, groups)
     elif is_mdtraj(source):
         beads, more, frames = _open_mdtraj(source, chosen_of, wants_elements, necklaces, groups,
                                            (options or {}).get("dt"))
@@ -412,5 +427,10 @@ def open_input(source, *, start=None, stop=None, step=None, units=None, necklace
         more = more + ["--radius", "array"]
     elif radius is not None:
         more = more + ["--radius", str(radius)]
+    if isinstance(velocities, str):
+        more = more + ["--velocities", velocities]
+    elif velocities is not None:
+        frames = (frames[0], plain("velocities", velocities))
+        more = more + ["--velocities", "file"]
     memory = _kds.Frames(*frames, beads)
     return Input([memory.path, "--format", "memory", *more], memory)

@@ -12,7 +12,7 @@ from . import _kds
 InputError = _kds.InputError
 
 # Arguments of every input. They are in front of the options of the program in every signature.
-INPUT = ("start", "stop", "step", "radius", "units", "necklaces", "times", "groups")
+INPUT = ("start", "stop", "step", "radius", "units", "necklaces", "times", "velocities", "groups")
 # Options of the program that say how files are read.
 OF_FILES = ("topology", "select", "chain", "obstacle", "dt", "until_damage", "unwrap", "no_periodic")
 OF_THE_INPUT = (*INPUT, *OF_FILES)

@@ -29,15 +29,15 @@ def run_arguments(cutoff, surface, options):
     return arguments({"cutoff": cutoff, "surface": flag("surface", surface), **options})
 
 
-def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, groups=None,
-             radius=None, cutoff=None, surface=False, only=None, view=None, pull=False, **options):
+def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, velocities=None,
+             groups=None, radius=None, cutoff=None, surface=False, only=None, view=None, pull=False, **options):
     """Opens an input and the run over it, and issues the warnings about the input. `view` is the path of a page.
 
     Returns the run, the input, a function that opens the run over the same input again, with another page, and the
     warnings."""
     given = run_arguments(cutoff, surface, options)
     opened = open_input(source, start=start, stop=stop, step=step, units=units, necklaces=necklaces, times=times,
-                        groups=groups, radius=radius, pull=pull, options=options)
+                        velocities=velocities, groups=groups, radius=radius, pull=pull, options=options)
     more = more_options(only)
 
     def open_core(page):
