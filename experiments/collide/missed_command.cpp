@@ -168,7 +168,7 @@ const OptionList<MissedTask>& missed_task_options() {
   using O = MissedTask;
   static const auto list =
       OptionList<O>()
-          .with(input_options().with({obstacle_option()}))
+          .with(input_options().with({obstacle_option(), velocities_option()}))
           .with({
               of_output(list_option({"--strides", "LIST",
                                      "examine every frame, every second, ... (default: 1,2,4,8,16,32,64, "

@@ -69,7 +69,7 @@ const OptionList<CompareOptions>& compare_options() {
                   fmt::join(frame_motion_names, ", "));
   static const auto list =
       OptionList<O>()
-          .with(input_options())
+          .with(input_options().with({velocities_option()}))
           .with({list_option({"--structures", "LIST", structures_help}, &O::structures, parse_structures),
                  list_option({"--strides", "LIST",
                               "run over every frame, every second, every fourth: 1,2,4 (default: 1)"},

@@ -38,7 +38,7 @@ const OptionList<ContactsTask>& contacts_task_options() {
   using O = ContactsTask;
   static const auto list =
       OptionList<O>()
-          .with(input_options().with({obstacle_option()}))
+          .with(input_options().with({obstacle_option(), velocities_option()}))
           .with(&O::distances,
                 contact_options(
                     "two beads are in contact while their centres are at most this far apart (must be given; "

@@ -204,15 +204,6 @@ OptionList<InputOptions> make_input_options() {
          o.reading.unwrap = choice_of("--unwrap", text, unwrap_names, Unwrap::none);
        },
        [](const InputOptions& o) { return std::string(o.reading.unwrap ? name_of(*o.reading.unwrap) : ""); }},
-      {{"--velocities", "NAME",
-        "velocities of Hermite motion: file (those of the frames, for TRR, AMBER NetCDF and LAMMPS dumps) or "
-        "differences (of the positions in the frames around) (default: file if all frames read have "
-        "velocities "
-        "and times, otherwise differences)"},
-       [](InputOptions& o, const std::string& text) {
-         o.velocities = choice_of("--velocities", text, velocity_source_names, VelocitySource::differences);
-       },
-       [](const InputOptions& o) { return std::string(o.velocities ? name_of(*o.velocities) : ""); }},
       {{"--no-periodic", "", "ignore periodic images of beads"},
        [](InputOptions& o, const std::string&) { o.periodic = false; },
        [](const InputOptions& o) { return o.periodic ? "" : "yes"; },
@@ -260,6 +251,19 @@ const Option<InputOptions>& obstacle_option() {
                                "last, after a / (default: none)",
                                "--chain"_arg)},
                   &InputOptions::obstacle);
+  return option;
+}
+
+const Option<InputOptions>& velocities_option() {
+  static const Option<InputOptions> option(
+      {"--velocities", "NAME",
+       "velocities of Hermite motion: file (TRR, AMBER NetCDF, LAMMPS dumps) or differences (of the "
+       "positions in the "
+       "frames around) (default: file if all frames have velocities and times, otherwise differences)"},
+      [](InputOptions& o, const std::string& text) {
+        o.velocities = choice_of("--velocities", text, velocity_source_names, VelocitySource::differences);
+      },
+      [](const InputOptions& o) { return std::string(o.velocities ? name_of(*o.velocities) : ""); });
   return option;
 }
 

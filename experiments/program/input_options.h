@@ -42,6 +42,8 @@ struct InputOptions {
 [[nodiscard]] std::string inputs_help();
 /// Returns the option --obstacle, for commands that put all inputs on one clock.
 [[nodiscard]] const Option<InputOptions>& obstacle_option();
+/// Returns the option --velocities, for commands whose beads may move on Hermite curves.
+[[nodiscard]] const Option<InputOptions>& velocities_option();
 /// Returns the option --groups, for commands that look at pairs of beads. `help` must outlive the option.
 [[nodiscard]] Option<InputOptions> groups_option(
     const std::string& help =

@@ -194,9 +194,7 @@ std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
                                         std::size_t stride) {
   if (options.velocities)
     throw InputError("--velocities",
-                     fmt::format("is of Hermite curves; expected {} hermite, for a command that "
-                                 "has it",
-                                 "--motion"_arg));
+                     fmt::format("is of Hermite curves; expected {} hermite", "--motion"_arg));
   std::vector<NecklaceStream> files;
   std::vector<InputAtoms> atoms;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {

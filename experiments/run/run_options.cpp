@@ -155,7 +155,7 @@ const OptionList<RunOptions>& motion_and_structure_options() {
                                                      fmt::join(frame_motion_names, ", "));
   static const OptionList<O> list =
       OptionList<O>()
-          .with(input_options().with({obstacle_option()}))
+          .with(input_options().with({obstacle_option(), velocities_option()}))
           .with({
               structures_option(),
               choice_option({"--motion", "NAME", motion_help}, &O::motion, frame_motion_names),

@@ -15,7 +15,7 @@ const OptionList<UnionTask>& union_options() {
   using O = UnionTask;
   static const auto list =
       OptionList<O>()
-          .with(input_options().with({obstacle_option()}))
+          .with(input_options().with({obstacle_option(), velocities_option()}))
           .with({real_option(
                      {"--probe", "LENGTH",
                       fmt::format(

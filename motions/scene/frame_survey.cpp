@@ -235,7 +235,7 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
         "vector ({:.4g}), so the paths of images are a guess ({})",
         necklaces.front().file, jumps.first_frame, jumps.change, jumps.half_cell,
         counted(jumps.count, "such change")));
-  constexpr double least_explained = 0.25;
+  constexpr double least_explained = 0.1;
   if (warn && survey.velocities && velocities.explained() < least_explained)
     warn(
         fmt::format("{}: velocities explain {:.0f}% of the moves between frames: the frames are too far "

@@ -46,8 +46,6 @@ class StepSource {
   [[nodiscard]] virtual int dimension() const = 0;
   [[nodiscard]] virtual int degree() const = 0;
   [[nodiscard]] virtual bool is_lifted() const { return false; }
-  /// Returns where the velocities of Hermite curves come from, or nothing for other curves.
-  [[nodiscard]] virtual std::optional<VelocitySource> velocities() const { return std::nullopt; }
   /// Returns the number of frames so far. Step k lies between frames k and k+1.
   [[nodiscard]] virtual std::size_t frame_count() const = 0;
   /// Returns the number of steps whose motion is known.
@@ -83,6 +81,8 @@ class StepSource {
   [[nodiscard]] virtual bool has_weights() const { return false; }
   /// Returns control point k of the bead's weight, if the source has weights.
   [[nodiscard]] virtual double weight(BeadId /*bead*/, int /*k*/) const { return 0; }
+  /// Returns where the velocities of Hermite curves come from, or nothing for other curves.
+  [[nodiscard]] virtual std::optional<VelocitySource> velocities() const { return std::nullopt; }
 };
 
 /// The step of an instance. The frames of the step are u = 0 and u = 1.

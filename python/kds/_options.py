@@ -148,7 +148,7 @@ def takes(command, without=()):
         for name, help, is_flag in _kds.options_of(command):
             helps[name], defaults[name] = help, False if is_flag else None
             (_FLAGS if is_flag else _VALUED).add(name)
-        inputs = [name for name in INPUT if name != "groups" or name in helps] if "topology" in helps else []
+        inputs = [name for name in INPUT if name not in ("velocities", "groups") or name in helps] if "topology" in helps else []
         if command == "run":
             inputs.append("only")
         own = [one for one in inspect.signature(function).parameters.values() if one.kind is not one.VAR_KEYWORD]

@@ -556,5 +556,65 @@ class Arrays(unittest.TestCase):
         self.assertEqual(rows, expected["rows"])
 
 
+class Velocities(unittest.TestCase):
+    OPTIONS = {"motion": "hermite", "radius": 1.2, "structures": ["wrapped", "power"]}
+
+    def setUp(self):
+        k, bead = np.arange(6)[:, None, None] / 4, np.arange(30)[None, :, None]
+        phase, rate = 0.7 * bead + np.array([0, 1.3, 2.1]), 1 + np.cos(bead)
+        self.times = k.ravel()
+        self.positions = (1.5 * bead * np.array([1, 0, 0]) + 2 * np.sin(rate * k + phase)).astype(np.float32)
+        self.velocities = (2 * rate * np.cos(rate * k + phase)).astype(np.float32)
+
+    def run_of(self, source, **options):
+        return kds.run(source, **{**self.OPTIONS, **options})
+
+    def test_arrays(self):
+        run = self.run_of(self.positions, velocities=self.velocities, times=self.times)
+        self.assertEqual(run.summary["input"]["velocities"], "file")
+        differences = self.run_of(self.positions, times=self.times)
+        self.assertEqual(differences.summary["input"]["velocities"], "differences")
+        self.assertNotEqual(run.fingerprint, differences.fingerprint)
+        same = self.run_of(self.positions / 10, velocities=self.velocities.astype(float) / 10, dt=0.25, units="nm")
+        self.assertEqual(len(same.events), len(run.events))
+        points = kds.KineticRun(self.positions, velocities=self.velocities, times=self.times, **self.OPTIONS).control_points()
+        np.testing.assert_allclose(points[:, 1], self.positions[0] + self.velocities[0].astype(float) / 12, rtol=1e-14)
+        np.testing.assert_allclose(points[:, 2], self.positions[1] - self.velocities[1].astype(float) / 12, rtol=1e-14)
+        for options, message in (({"velocities": self.velocities[:2], "times": self.times}, "velocities: have the shape"),
+                                 ({"velocities": self.velocities}, "velocities: file: frame 0 has no time; expected"),
+                                 ({"velocities": self.velocities, "motion": "linear"}, "velocities: is of Hermite curves"),
+                                 ({"velocities": "guess"}, "velocities: 'guess' is not one of differences, file")):
+            with self.assertRaisesRegex(kds.InputError, message):
+                self.run_of(self.positions, **options)
+        with self.assertRaisesRegex(kds.InputError, "velocities: an array is for positions in memory"):
+            self.run_of(DCD, velocities=self.velocities)
+
+    @needs("MDAnalysis")
+    def test_files_as_mdanalysis_reads_them(self):
+        import MDAnalysis
+
+        def universe_of(*source, **options):
+            found = MDAnalysis.Universe.empty(30, trajectory=True, velocities=True)
+            found.load_new(*source, **options)
+            return found
+
+        with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            written = universe_of(self.positions, dt=0.25, velocities=self.velocities)
+            for ending in ("trr", "nc"):
+                path = os.path.join(folder, "a." + ending)
+                with MDAnalysis.Writer(path, n_atoms=30, dt=0.25, velocities=True) as writer:
+                    for _ in written.trajectory:
+                        writer.write(written.atoms)
+                group = universe_of(path).atoms
+                expected = self.run_of(group)
+                self.assertEqual(expected.summary["input"]["velocities"], "file")
+                self.assertEqual(self.run_of(path).fingerprint, expected.fingerprint)
+                self.assertEqual(sum(len(frame.events) for frame in kds.stream(group, **self.OPTIONS)), len(expected.events))
+                self.assertNotEqual(self.run_of(path, velocities="differences").fingerprint, expected.fingerprint)
+                with self.assertRaisesRegex(kds.InputError, "velocities: an AtomGroup has its own"):
+                    self.run_of(group, velocities=self.velocities)
+
+
 if __name__ == "__main__":
     unittest.main()

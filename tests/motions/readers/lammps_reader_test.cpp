@@ -106,6 +106,19 @@ TEST(LammpsReader, ReadsOldBoxesAsPeriodic) {
   EXPECT_FALSE(file->may_have_cell());
 }
 
+TEST(LammpsReader, ReadsVelocities) {
+  const std::string text = dump(0, 2, cube, "id vx x vz z vy y", "2 1 0 3 0 2 0\n1 4 1 6 3 5 2\n");
+  const auto velocity = [&](std::optional<LammpsUnits> units) {
+    return read_frame(*open(text, {.units = units, .velocities = true}), 0).velocities;
+  };
+  EXPECT_EQ(velocity(LammpsUnits::metal).col(0), Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(velocity(LammpsUnits::real).col(1), Eigen::Vector3d(1000, 2000, 3000));
+  EXPECT_DOUBLE_EQ(velocity(LammpsUnits::nano)(1, 1), 0.02);
+  for (const auto units : {std::optional(LammpsUnits::lj), std::optional<LammpsUnits>()})
+    EXPECT_EQ(velocity(units).cols(), 0);
+  EXPECT_EQ(read_frame(*open(text), 0).velocities.cols(), 0);
+}
+
 TEST(LammpsReader, UnwrapsByImageFlags) {
   const auto file = open(dump(0, 1, tilted, "id x y z ix iy iz", "1 1 2 3 1 0 -2\n"));
   EXPECT_EQ(read_frame(*file, 0).positions.col(0), Eigen::Vector3d(1 + 10 + 8, 2 + 6, 3 - 60));

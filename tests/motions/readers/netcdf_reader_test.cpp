@@ -109,6 +109,30 @@ TEST(NetcdfReader, Scales) {
   refuse(maker.bytes(), {"a.nc", "scale_factor"});
 }
 
+TEST(NetcdfReader, ReadsVelocities) {
+  NetcdfMaker maker = NetcdfMaker::chain(3, 2);
+  const auto velocities = [&](const std::string& units) {
+    maker.velocity_units = units;
+    return read_frame(*open_netcdf(test::write_file("a.nc", maker.bytes()), {.velocities = true}), 1)
+        .velocities;
+  };
+  EXPECT_EQ(velocities("angstrom/picosecond"), read_frame(*open(maker.bytes()), 1).positions);
+  EXPECT_EQ(read_frame(*open(maker.bytes()), 1).velocities.cols(), 0);
+  EXPECT_EQ(velocities("nanometers/ps")(1, 2), 2.5);
+  EXPECT_EQ(velocities("angstrom/step").cols(), 0);
+  for (const bool fixed : {false, true})
+    for (const bool doubles : {false, true}) {
+      maker.fixed_frames = fixed;
+      maker.doubles = doubles;
+      maker.velocity_scale = 20.455;  // AMBER's unit of time is 1/20.455 ps
+      EXPECT_EQ(velocities("angstrom/picosecond")(1, 2), doubles ? 20.455 * 0.25 : 20.455F * 0.25F);
+      EXPECT_DOUBLE_EQ(velocities("angstrom/femtosecond")(1, 2), 1000 * (doubles ? 20.455 : 20.455F) * 0.25);
+    }
+  maker.frames[1][2][1] = 9.9692099683868690e+36;  // NetCDF's fill value
+  const auto file = open_netcdf(test::write_file("a.nc", maker.bytes()), {.velocities = true});
+  test::expect_refused([&] { (void)read_frame(*file, 1); }, {"found NetCDF's fill value"});
+}
+
 TEST(NetcdfReader, NamesTheByteOfADamagedHeader) {
   std::string bytes = NetcdfMaker::chain(3, 2).bytes();
   bytes[11] = '\x0c';  // the list of dimensions begins at byte 8

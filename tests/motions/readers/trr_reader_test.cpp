@@ -64,12 +64,18 @@ TEST(TrrReader, ReadsEveryLayout) {
       maker.has_tensors = (parts & 2U) != 0;
       maker.has_velocities = (parts & 4U) != 0;
       maker.has_forces = (parts & 8U) != 0;
-      const auto frames = open_trr(test::write_file("a.trr", maker.bytes()), {});
+      const auto path = test::write_file("a.trr", maker.bytes());
+      const auto frames = open_trr(path, {.velocities = true});
       ASSERT_EQ(frames->held().whole, 3U);
       EXPECT_EQ(frames->may_have_cell(), maker.has_box);
       for (std::size_t k = 0; k < 3; ++k) {
         const FrameRead frame = read_frame(*frames, k);
         expect_positions(maker.frames[k], frame.positions);
+        auto twice = maker.frames[k];  // as the maker writes velocities
+        for (auto& atom : twice)
+          for (double& x : atom) x *= 2;
+        expect_positions(maker.has_velocities ? twice : std::vector<TrrMaker::Atom>(), frame.velocities);
+        EXPECT_EQ(read_frame(*open_trr(path, {}), k).velocities.cols(), 0);
         EXPECT_EQ(frame.cell.has_value(), maker.has_box);
         EXPECT_DOUBLE_EQ(frame.stamp.picoseconds.value(), static_cast<double>(k) * 0.3);
       }

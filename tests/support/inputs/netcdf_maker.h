@@ -20,7 +20,8 @@ struct NetcdfMaker {
   std::int64_t frames_claimed = -1;  ///< -1: the true number
   std::string conventions = "AMBER";
   std::string units = "angstrom", time_units = "picosecond", angle_units = "degree";
-  std::optional<double> scale, time_scale;
+  std::string velocity_units;  ///< empty: no velocities; otherwise they are the numbers of the coordinates
+  std::optional<double> scale, time_scale, velocity_scale;
   bool with_time = true;
   std::optional<std::array<double, 6>> cell;  ///< lengths and angles of every frame
   std::vector<std::vector<std::array<double, 3>>> frames;
@@ -57,7 +58,7 @@ struct NetcdfMaker {
   }
 
  private:
-  enum class Name { time, coordinates, lengths, angles };
+  enum class Name { time, coordinates, velocities, lengths, angles };
   struct Variable {
     Name name;
     std::string text;
@@ -73,6 +74,13 @@ struct NetcdfMaker {
     if (with_time) all.push_back({Name::time, "time", {}, float_type, {{"units", time_units}}, time_scale});
     all.push_back({Name::coordinates, "coordinates", {1, 2}, doubles ? double_type : float_type, {}, scale});
     if (!units.empty()) all.back().attributes.emplace_back("units", units);
+    if (!velocity_units.empty())
+      all.push_back({Name::velocities,
+                     "velocities",
+                     {1, 2},
+                     all.back().type,
+                     {{"units", velocity_units}},
+                     velocity_scale});
     if (cell) {
       all.push_back({Name::lengths, "cell_lengths", {2}, double_type, {{"units", units}}, {}});
       all.push_back({Name::angles, "cell_angles", {2}, double_type, {{"units", angle_units}}, {}});
@@ -110,7 +118,7 @@ struct NetcdfMaker {
 
   void put_values(std::string& out, const Variable& variable, std::size_t k) const {
     if (variable.name == Name::time) put_value(out, variable.type, times.at(k));
-    if (variable.name == Name::coordinates)
+    if (variable.name == Name::coordinates || variable.name == Name::velocities)
       for (const auto& atom : frames[k])
         for (const double coordinate : atom) put_value(out, variable.type, coordinate);
     if (variable.name == Name::lengths || variable.name == Name::angles)
