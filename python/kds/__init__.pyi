@@ -58,6 +58,7 @@ class _Settings(TypedDict, total=False):
     work: Optional[int]
 
 class _Analysis(_Source, _Settings, total=False):
+    velocities: Union[str, ArrayLike, None]
     obstacle: Optional[Path]
     cutoff: Optional[float]
     surface: bool
@@ -77,11 +78,13 @@ class _Lifetimes(TypedDict, total=False):
     threads: Optional[int]
 
 class _Contacts(_Input, _Lifetimes, total=False):
+    velocities: Union[str, ArrayLike, None]
     obstacle: Optional[Path]
     by: Optional[str]
     groups: Optional[Tuple[Any, Any]]
 
 class _Compare(_Input, total=False):
+    velocities: Union[str, ArrayLike, None]
     structures: Optional[Names]
     strides: Optional[Strides]
     motions: Optional[Names]
@@ -108,6 +111,7 @@ class _Collide(_Input, total=False):
     groups: Optional[Tuple[Any, Any]]
 
 class _Surface(_Input, total=False):
+    velocities: Union[str, ArrayLike, None]
     obstacle: Optional[Path]
     probe: Optional[float]
     at: Union[float, Sequence[float], None]
@@ -115,6 +119,7 @@ class _Surface(_Input, total=False):
     threads: Optional[int]
 
 class _Voids(_Input, total=False):
+    velocities: Union[str, ArrayLike, None]
     obstacle: Optional[Path]
     probe: Optional[float]
     motion: Optional[str]

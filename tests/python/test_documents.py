@@ -107,7 +107,7 @@ class Stubs(unittest.TestCase):
             function = getattr(kds, name)
             self.assertEqual(expected - missing - but - set(inspect.signature(function).parameters), set(), name)
             text = inspect.getdoc(getattr(function, "__init__", function) if inspect.isclass(function) else function)
-            for option in expected - missing - but - {"radius", "units", "groups", "cutoff"}:
+            for option in expected - missing - but - {"radius", "units", "velocities", "groups", "cutoff"}:
                 self.assertRegex(text, rf"(?m)^{option}$", name)
         self.assertIn("kernel=None", pydoc.render_doc(kds.run))
 

@@ -542,7 +542,7 @@ class Arrays(unittest.TestCase):
         beads = core.Beads("array")
         beads.cells = [12.0, 12.0, 12.0, 90.0, 90.0, 90.0] * 6
         wrapped = np.ascontiguousarray(np.mod(whole, 12.0))
-        frames = core.Frames(wrapped, beads)
+        frames = core.Frames(wrapped, None, beads)
         run = core.Run([frames.path, "--format", "memory", "--radius", "1", "--structures", "contacts", "--no-periodic"],
                        core.MoreOptions(), frames)
         run.execute()
