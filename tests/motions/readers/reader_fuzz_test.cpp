@@ -139,7 +139,13 @@ void add_netcdf(std::vector<Seed>& seeds) {
     maker.streamed = version == 2;
     maker.cell = {30, 40, 50, 90, 90, 90};
     if (version == 5) maker.scale = 1.5;
-    seeds.push_back({"Netcdf" + std::to_string(version), "a.nc", maker.bytes(), maker.frame_bytes(), 1000});
+    if (version == 5) maker.velocity_units = "angstrom/picosecond";
+    seeds.push_back({"Netcdf" + std::to_string(version),
+                     "a.nc",
+                     maker.bytes(),
+                     maker.frame_bytes(),
+                     1000,
+                     {.velocities = true}});
   }
 }
 
@@ -160,8 +166,12 @@ void add_gromacs(std::vector<Seed>& seeds) {
     maker.real = real;
     maker.has_velocities = true;
     maker.frames.assign(3, {{0, 1, 2}, {0.15, 1, 2}, {0.3, 1, -2}});
-    seeds.push_back(
-        {"Trr" + std::to_string(8 * real), "a.trr", maker.bytes(), maker.frame_bytes(2).size(), 500});
+    seeds.push_back({"Trr" + std::to_string(8 * real),
+                     "a.trr",
+                     maker.bytes(),
+                     maker.frame_bytes(2).size(),
+                     500,
+                     {.velocities = true}});
   }
   test::GroText frame;
   frame.title = "t= 0.0";
