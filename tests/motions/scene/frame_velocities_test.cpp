@@ -30,10 +30,10 @@ struct Made {
   std::unique_ptr<Scene> scene;
 };
 
-Made made_of(const std::filesystem::path& path, ReadOptions options = {}) {
+Made made_of(const std::vector<std::filesystem::path>& paths, ReadOptions options = {}) {
   options.velocities = true;
   std::vector<NecklaceStream> files;
-  files.emplace_back(path, options);
+  for (const std::filesystem::path& path : paths) files.emplace_back(path, options);
   auto frames = std::make_unique<FileFrames>(std::move(files));
   Made made;
   made.survey =
@@ -79,7 +79,7 @@ TEST(FrameVelocities, GiveCubicPathsUpToRounding) {
     for (const auto unwrap : {Unwrap::none, Unwrap::chains, Unwrap::beads}) {
       CubicPaths paths;
       if (unwrap != Unwrap::none) paths.cell = 10;  // beads pass through its walls
-      const Made made = made_of(test::write_file("a.lammpstrj", paths.dump()),
+      const Made made = made_of({test::write_file("a.lammpstrj", paths.dump())},
                                 {.frames = {.stride = stride}, .unwrap = unwrap});
       EXPECT_EQ(made.scene->velocities(), VelocitySource::file);
       EXPECT_EQ(made.scene->reach(), 0U);
@@ -87,17 +87,34 @@ TEST(FrameVelocities, GiveCubicPathsUpToRounding) {
     }
 }
 
+TEST(FrameVelocities, BesideBeadsAtRest) {
+  CubicPaths paths, rest;
+  rest.times = {0};
+  const auto moving = test::write_file("a.lammpstrj", paths.dump());
+  const Made made = made_of({moving, test::write_file("rest.lammpstrj", rest.dump())});
+  EXPECT_EQ(made.scene->velocities(), VelocitySource::file);
+  BezierMotion<3, 3> motion(14);
+  made.scene->load(1, motion);
+  EXPECT_EQ(point_of(motion, 13, 0.5), rest.position(6, 0));
+  EXPECT_LT((point_of(motion, 6, 0.5) - paths.position(6, 0.625)).norm(), 1e-12);
+  TrrMaker still;
+  still.has_box = false;
+  still.frames.assign(7, std::vector<TrrMaker::Atom>(3));
+  const Made other = made_of({moving, test::write_file("b.trr", still.bytes())});
+  EXPECT_EQ(other.scene->velocities(), VelocitySource::differences);
+}
+
 TEST(FrameVelocities, DtGivesTheTimes) {
   CubicPaths paths;
   paths.times = {0, 0.25, 0.5, 0.75};
   for (const bool has_times : {true, false}) {
     paths.has_times = has_times;
-    const Made made = made_of(test::write_file("a.lammpstrj", paths.dump()), {.time_step = 0.25});
+    const Made made = made_of({test::write_file("a.lammpstrj", paths.dump())}, {.time_step = 0.25});
     EXPECT_LT(deviation(*made.scene, paths, 1), 1e-12);
   }
   const auto path = test::write_file("a.lammpstrj", paths.dump());
-  EXPECT_EQ(made_of(path).survey.lacks_velocities, "frame 0 has no time");
-  const auto warnings = made_of(path, {.time_step = 250}).warnings;  // 1000 times too long
+  EXPECT_EQ(made_of({path}).survey.lacks_velocities, "frame 0 has no time");
+  const auto warnings = made_of({path}, {.time_step = 250}).warnings;  // 1000 times too long
   EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("velocities explain 0% of the moves")));
 }
 
@@ -112,11 +129,11 @@ TEST(FrameVelocities, AreThoseOfAllFramesOrOfNone) {
     bytes += maker.frame_bytes(k);
   }
   const auto path = test::write_file("a.trr", bytes);
-  const Made made = made_of(path);
+  const Made made = made_of({path});
   EXPECT_EQ(made.survey.lacks_velocities, "frame 1 has no velocities");
   EXPECT_EQ(made.scene->velocities(), VelocitySource::differences);
   maker.has_velocities = false;
-  const Made without = made_of(test::write_file("b.trr", maker.bytes()));
+  const Made without = made_of({test::write_file("b.trr", maker.bytes())});
   EXPECT_EQ(without.survey.lacks_velocities, "");
   BezierMotion<3, 3> one(5), other(5);
   for (std::size_t step = 0; step < 3; ++step) {
@@ -125,10 +142,10 @@ TEST(FrameVelocities, AreThoseOfAllFramesOrOfNone) {
     for (BeadId bead = 0; bead < 5; ++bead)
       for (int k = 0; k <= 3; ++k) EXPECT_EQ(one.coordinate(bead, k, 2), other.coordinate(bead, k, 2));
   }
-  EXPECT_EQ(made_of(path, {.frames = {.first = 2}}).scene->velocities(), VelocitySource::file);
+  EXPECT_EQ(made_of({path}, {.frames = {.first = 2}}).scene->velocities(), VelocitySource::file);
   maker.has_velocities = true;
   maker.time_step = 0;
-  EXPECT_EQ(made_of(test::write_file("a.trr", maker.bytes())).survey.lacks_velocities,
+  EXPECT_EQ(made_of({test::write_file("a.trr", maker.bytes())}).survey.lacks_velocities,
             "frame 1 is not later than the frame before");
 }
 
@@ -136,8 +153,8 @@ TEST(FrameVelocities, MustBeFinite) {
   CubicPaths paths;
   paths.velocity_factor = std::numeric_limits<double>::infinity();
   const auto path = test::write_file("a.lammpstrj", paths.dump());
-  test::expect_refused([&] { (void)made_of(path); }, {"a.lammpstrj: frame 0: bead 0 has vx = ",
-                                                      "expected a finite velocity (--velocities"});
+  test::expect_refused([&] { (void)made_of({path}); }, {"a.lammpstrj: frame 0: bead 0 has vx = ",
+                                                        "expected a finite velocity (--velocities"});
 }
 
 }  // namespace
