@@ -239,8 +239,7 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   if (warn && survey.velocities && velocities.explained() < least_explained)
     warn(
         fmt::format("{}: velocities explain {:.0f}% of the moves between frames: the frames are too far "
-                    "apart for them, or "
-                    "times or units are wrong ({} differences)",
+                    "apart for them, or times or units are wrong ({} differences)",
                     necklaces.front().file, 100 * std::max(0.0, velocities.explained()), "--velocities"_arg));
   frames.seek(0);
   return survey;
