@@ -35,19 +35,22 @@ def span(values):
 
 
 class Report:
-    """The options of a script and its results, which finish() prints and --json writes. `text` says what it measures."""
+    """The options of a script and its results, which finish() prints and --json writes. `text` says what it measures. `options`
+    are further options of the script, each with its keywords for argparse; `given` has their values."""
 
-    def __init__(self, text):
+    def __init__(self, text, **options):
         self.title = text.strip().splitlines()[0].rstrip(".")
         parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
         parser.add_argument("--short", action="store_true", help="leave out large inputs and measure each time once")
         parser.add_argument("--json", metavar="FILE", help="write rows and verdicts to FILE; - is standard output")
         parser.add_argument("--data", metavar="DIR", type=Path, default=HERE.parents[1] / "data",
                             help="the project's data folder (default: that beside this script)")
+        for name, keywords in options.items():
+            parser.add_argument(f"--{name}", **keywords)
         given = parser.parse_args()
         if not given.data.is_dir():
             parser.error(f"--data: {given.data} is no folder; expected the project's data folder")
-        self.short, self.data, self.json = given.short, given.data, given.json
+        self.short, self.data, self.json, self.given = given.short, given.data, given.json, given
         self.rounds = 1 if self.short else 5
         self.out = sys.stderr if self.json == "-" else sys.stdout
         self.results = {"title": self.title, "rows": [], "claims": []}

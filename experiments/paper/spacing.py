@@ -1,0 +1,179 @@
+"""From which spacing of frames on do counts no longer depend on it?
+
+Reads runs of molecular dynamics that were written at every step of 2 fs, and then every 2nd, 4th, 8th ... frame of them. Counts
+contacts, basis changes and flips on paths between these frames: straight ones (linear) and Hermite cubics with velocities from
+differences of frames (differences). Each value is divided by that of these cubics at 2 fs in the same run. Means over runs have
+Student's 95% interval. `missed` is the share of contacts that contain no frame, of those of straight paths at 2 fs. Exponents
+say how fast a number falls with the spacing: it is a power law if they are equal in all ranges.
+
+By default reads the run in data/trajectories, 3 ps of a peptide in water; a single run has no interval. simulate.py makes more
+and longer runs; --runs takes them in half a minute each.
+"""
+
+import csv
+import gzip
+import tempfile
+import warnings
+from pathlib import Path
+
+import fits
+import kds
+import numpy as np
+from common import Report
+
+STRIDES = [2**k for k in range(10)]
+RANGES = (8, 32), (32, 128), (128, 512)  # strides between which exponents are measured
+MOTIONS = {"linear": {"motion": "linear"}, "differences": {"motion": "hermite"}}
+WATER = {"select": "//*", "groups": ("//*/(SOL)/OW", "//*//O"), "by": "bead", "apart": 1}
+BACKBONE = {"backbone, 4.5": {"cutoff": 4.5, "by": "bead", "apart": 4}}
+CONTACTS = {"peptide": {"water, 3.5": {"cutoff": 3.5, **WATER}, "water, 3.5:4.5": {"cutoff": (3.5, 4.5), **WATER}, **BACKBONE},
+            "villin": {"C-alpha, 8": {"cutoff": 8, "select": "ca"}, **BACKBONE}}
+STRUCTURES = {"wrapped": "basis changes", "power": "flips"}
+LINES = {"linear": ("-", "straight paths"), "differences": ("--", "cubics, velocities from differences")}
+COLORS = {"water, 3.5": "#2f6ea5", "water, 3.5:4.5": "#8fb8de", "C-alpha, 8": "#1f2933", "backbone, 4.5": "#c98a1b",
+          "basis changes": "#b3462f", "flips": "#3b8a5a"}
+
+
+def missed(intervals, stride):
+    """Returns the share of the intervals in frames that contain no multiple of the stride."""
+    return float(np.mean(np.ceil(intervals["begin_frame"] / stride) * stride > intervals["end_frame"]))
+
+
+def every(path, stride, longest, target):
+    """Writes every stride-th frame of a TRR file, up to the last multiple of `longest`. All frames must have equal size."""
+    content = (gzip.open if path.suffix == ".gz" else open)(path, "rb").read()
+    frames = np.frombuffer(content, np.uint8).reshape(-1, content.find(content[:24], 24))  # a frame starts with a magic word
+    frames[:(len(frames) - 1) // longest * longest + 1:stride].tofile(target)
+
+
+def measure(path, system, strides, place):
+    """Yields measure, motion, stride and value of one run, over the same time at all strides. Writes to the folder `place`."""
+    topology = path.with_name(path.name.split(".")[0] + ".gro")
+    for stride in strides:
+        every(path, stride, strides[-1], file := Path(place, "part.trr"))
+        for motion, options in MOTIONS.items():
+            given = {"topology": topology, **options}
+            for name, contacts in CONTACTS[system].items():
+                found = kds.contacts(file, strides=[1], **given, **contacts)
+                yield name, motion, stride, found.all["contacts"] - found.all["open_at_start"]
+                yield f"{name}: mean life", motion, stride, found.all["residence"]
+                yield f"{name}: median life", motion, stride, found.all["median"]
+                if motion == "linear" and stride == 1:
+                    for step in strides:
+                        yield f"{name}: missed", "frames", step, missed(found.intervals, step)
+            run = kds.run(file, structures=list(STRUCTURES), **given)
+            for structure, name in STRUCTURES.items():
+                yield name, motion, stride, len(getattr(run, structure).events)
+
+
+def exponents(values):
+    """Returns the slopes of minus the logarithms of values at STRIDES over RANGES."""
+    at = dict(zip(STRIDES, values))
+    return [float(np.log(at[first] / at[last]) / np.log(last / first)) for first, last in RANGES]
+
+
+def coverage(rounds, runs=5, frames=9729):
+    """Returns the shares of samples in which the interval of a ratio (at each stride) or exponent (in each range) contains the
+    true one, of those with an interval. A sample has the upcrossings of 0 by Gaussian processes, whose expected number at each
+    stride is known (Rice): slow motion and a vibration of 50 fs."""
+    random, size = np.random.default_rng(1), 16384
+    lags = np.minimum(np.arange(size), size - np.arange(size)) * 0.002  # ps
+    correlation = 0.9 * np.exp(-(lags / 0.3)**2 / 2) + 0.1 * np.exp(-(lags / 0.1)**2) * np.cos(2 * np.pi * lags / 0.05)
+    shape = np.sqrt(np.maximum(np.fft.rfft(correlation).real, 0) * size)
+    expected = np.array([np.arccos(correlation[stride]) / stride for stride in STRIDES])
+    truth, hits = [*expected[1:] / expected[0], *exponents(expected)], []
+    for _ in range(rounds):
+        noise = random.normal(size=(2, runs, len(shape))) / np.sqrt(2)
+        above = np.fft.irfft((noise[0] + 1j * noise[1]) * shape, size)[:, :frames] > 0
+        counts = np.array([(~above[:, :-1:stride] & above[:, stride::stride]).sum(1) for stride in STRIDES])
+        found = [*counts[1:] / counts[0], *zip(*(exponents(run) for run in counts.T))]
+        intervals = map(fits.mean_interval, found)
+        hits.append([np.nan if low is None else low <= true <= high for true, (_, low, high) in zip(truth, intervals)])
+    return np.nanmean(hits, axis=0)
+
+
+def draw(table, picture):
+    """Draws the numbers in a CSV file of --csv, one panel for each system."""
+    import matplotlib
+
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})  # text stays text, and files do not vary
+    with open(table, newline="", encoding="utf-8") as file:
+        lines = {}
+        for row in csv.DictReader(file):
+            if row["motion"] in LINES and "life" not in row["measure"]:
+                lines.setdefault(row["system"], {}).setdefault(row["measure"], {}).setdefault(row["motion"], []).append(row)
+    size = {"figsize": (5 * len(lines), 4.2), "layout": "constrained"}
+    figure, panels = pyplot.subplots(1, len(lines), squeeze=False, sharey=True, **size)
+    for axes, (system, measures) in zip(panels[0], lines.items()):
+        if axes is panels[0][-1]:
+            for line, words in LINES.values():
+                axes.plot([], [], line, color="#9aa5b1", label=words)
+        for name, motions in measures.items():
+            for motion, rows in motions.items():
+                x, y, low, high = ([float(row[key] or row["mean"]) for row in rows] for key in ("fs", "mean", "from", "to"))
+                axes.plot(x, y, LINES[motion][0], color=COLORS[name], linewidth=1.2, label=name if motion == "linear" else None)
+                axes.fill_between(x, low, high, color=COLORS[name], alpha=0.15, linewidth=0)
+        axes.set(xscale="log", xticks=x, xticklabels=[f"{one:.0f}" for one in x], ylim=(0, 1.05), title=system,
+                 xlabel="frames apart (fs)")
+        axes.minorticks_off()
+        axes.legend(frameon=False, loc="upper right" if axes is panels[0][-1] else "lower left")
+    panels[0][0].set_ylabel("number / number of cubics at 2 fs")
+    figure.savefig(picture, metadata={"Date": None})
+    pyplot.close(figure)
+
+
+def means_of(found, spacings):
+    """Returns rows of measure, motion, spacing, and the mean over runs with its interval. `found` has the runs of each."""
+    rows = []
+    for key, runs in found.items():
+        for spacing, values in zip(spacings, zip(*runs)):
+            known = [value for value in values if value is not None]
+            rows.append((*key, spacing, *(fits.mean_interval(known) if known else (None,) * 3)))
+    return rows
+
+
+def main():
+    warnings.simplefilter("ignore", kds.InputWarning)  # waters are not bonded to beads, caps have no C-alpha
+    report = Report(__doc__, runs={"metavar": "DIR", "type": Path, "help": "folder of runs (default: the run in data)"},
+                    fs={"metavar": "FS", "type": float, "default": 2.0, "help": "spacing of frames of the runs (default: 2)"},
+                    csv={"metavar": "FILE", "help": "write the means over runs to FILE"})
+    fs = int(report.given.fs) if report.given.fs.is_integer() else report.given.fs
+    folder = report.given.runs or report.data / "trajectories"
+    paths = sorted(path for system in CONTACTS for path in folder.glob(f"{system}[-_]*.trr*"))
+    if not paths:
+        raise SystemExit(f"--runs: {folder} has no runs, which simulate.py makes")
+    strides, found = STRIDES[::3] if report.short else STRIDES, {}
+    for path in paths:
+        system, values = next(system for system in CONTACTS if path.name.startswith(system)), {}
+        with tempfile.TemporaryDirectory() as place:
+            for name, motion, stride, value in measure(path, system, strides, place):
+                values.setdefault((name, motion), {})[f"fs_{fs * stride}"] = value
+        for (name, motion), row in values.items():
+            report.results["rows"].append({"row": f"{path.name.split('.')[0]}, {name}, {motion}", **row})
+            scale = 1 if motion == "frames" else values[name, "differences"][f"fs_{fs}"]
+            found.setdefault((system, name, motion), []).append([value and value / scale for value in row.values()])
+    report.results["means"] = means = means_of(found, [fs * stride for stride in strides])
+    report.show((f"by cubics at {fs} fs", *(f"{fs * stride} fs" for stride in strides)), [
+        (", ".join(key), *(mean for *other, mean, _, _ in means if tuple(other[:3]) == key)) for key in found])
+    if not report.short:
+        slopes = {key: zip(*map(exponents, runs)) for key, runs in found.items() if ": " not in key[1]}
+        report.results["exponents"] = rows = [(*key, *(fs * stride for stride in ends), *fits.mean_interval(values))
+                                              for key, ranges in slopes.items() for ends, values in zip(RANGES, ranges)]
+        report.show(("number falls", "from fs", "to fs", "exponent", "95% from", "to"),
+                    [(", ".join(row[:3]), *row[3:]) for row in rows])
+    if report.given.csv:
+        with open(report.given.csv, "w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(("system", "measure", "motion", "fs", "mean", "from", "to"))
+            writer.writerows([*row[:4], *("" if value is None else f"{value:.5g}" for value in row[4:])] for row in means)
+    shares = coverage(rounds := 200 if report.short else 400)
+    report.claim("intervals", "intervals of 5 runs contain the true ratio or exponent in 90 to 99% of generated samples",
+                 min(shares) >= 0.9 and max(shares) <= 0.99, f"{min(shares):.1%} to {max(shares):.1%} of {rounds}")
+    report.finish()
+
+
+if __name__ == "__main__":
+    main()
