@@ -19,7 +19,7 @@ from pathlib import Path
 import fits
 import kds
 import numpy as np
-from common import Report
+from common import HERE, Report
 
 STRIDES = [2**k for k in range(10)]
 RANGES = (8, 32), (32, 128), (128, 512)  # strides between which exponents are measured
@@ -123,6 +123,10 @@ def draw(table, picture):
     panels[0][0].set_ylabel("number / number of cubics at 2 fs")
     figure.savefig(picture, metadata={"Date": None})
     pyplot.close(figure)
+
+
+def draw_all(folder):
+    draw(HERE / "spacing.csv", f"{folder}/spacing.svg")
 
 
 def means_of(found, spacings):
