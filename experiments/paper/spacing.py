@@ -1,10 +1,11 @@
 """From which spacing of frames on do counts no longer depend on it?
 
 Reads runs of molecular dynamics that were written at every step of 2 fs, and then every 2nd, 4th, 8th ... frame of them. Counts
-contacts, basis changes and flips on paths between these frames: straight ones (linear) and Hermite cubics with velocities from
-differences of frames (differences). Each value is divided by that of these cubics at 2 fs in the same run. Means over runs have
-Student's 95% interval. `missed` is the share of contacts that contain no frame, of those of straight paths at 2 fs. Exponents
-say how fast a number falls with the spacing: it is a power law if they are equal in all ranges.
+contacts, basis changes and flips on paths between these frames: straight ones (linear), and Hermite cubics with velocities from
+differences of frames (differences) or with those of the simulation (velocities). Each value is divided by that of cubics from
+differences at 2 fs in the same run. Means over runs have Student's 95% interval. `missed` is the share of contacts that contain
+no frame, of those of straight paths at 2 fs. Exponents say how fast a number falls with the spacing: it is a power law if they
+are equal in all ranges.
 
 By default reads the run in data/trajectories, 3 ps of a peptide in water; a single run has no interval. simulate.py makes more
 and longer runs; --runs takes them in half a minute each.
@@ -23,13 +24,15 @@ from common import HERE, Report
 
 STRIDES = [2**k for k in range(10)]
 RANGES = (8, 32), (32, 128), (128, 512)  # strides between which exponents are measured
-MOTIONS = {"linear": {"motion": "linear"}, "differences": {"motion": "hermite"}}
+MOTIONS = {"linear": {"motion": "linear"}, "differences": {"motion": "hermite", "velocities": "differences"},
+           "velocities": {"motion": "hermite", "velocities": "file"}}
 WATER = {"select": "//*", "groups": ("//*/(SOL)/OW", "//*//O"), "by": "bead", "apart": 1}
 BACKBONE = {"backbone, 4.5": {"cutoff": 4.5, "by": "bead", "apart": 4}}
 CONTACTS = {"peptide": {"water, 3.5": {"cutoff": 3.5, **WATER}, "water, 3.5:4.5": {"cutoff": (3.5, 4.5), **WATER}, **BACKBONE},
             "villin": {"C-alpha, 8": {"cutoff": 8, "select": "ca"}, **BACKBONE}}
 STRUCTURES = {"wrapped": "basis changes", "power": "flips"}
-LINES = {"linear": ("-", "straight paths"), "differences": ("--", "cubics, velocities from differences")}
+LINES = {"linear": ("-", "straight paths"), "differences": ("--", "cubics, velocities from differences"),
+         "velocities": (":", "cubics, velocities of the simulation")}
 COLORS = {"water, 3.5": "#2f6ea5", "water, 3.5:4.5": "#8fb8de", "C-alpha, 8": "#1f2933", "backbone, 4.5": "#c98a1b",
           "basis changes": "#b3462f", "flips": "#3b8a5a"}
 
@@ -109,7 +112,7 @@ def draw(table, picture):
     figure, panels = pyplot.subplots(1, len(lines), squeeze=False, sharey=True, **size)
     for axes, (system, measures) in zip(panels[0], lines.items()):
         if axes is panels[0][-1]:
-            for line, words in LINES.values():
+            for line, words in (LINES[motion] for motion in next(iter(measures.values()))):
                 axes.plot([], [], line, color="#9aa5b1", label=words)
         for name, motions in measures.items():
             for motion, rows in motions.items():
