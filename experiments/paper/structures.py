@@ -1,0 +1,172 @@
+"""Structures for collision detection of one chain, counted at one definition.
+
+All hierarchies have the same balanced tree over the chain and the same search (volumes.py): pairs of beads at least 2 apart, both
+halves of each node first, and then the larger volume is split. Diagrams are searched along their edges. Columns:
+
+  events        changes of a kinetic structure by picoseconds, exact on straight paths between frames; those of the dual complex
+                include the flips of its power diagram. Layered spheres and oriented boxes have no events: all nodes are computed
+                anew at each frame, and these refits are counted instead.
+  certificates  at once at most in the first two steps, without those that slack leaves out (kernel exact)
+  family        pairs of disjoint volumes that a search finds; pairs: pairs of nodes or beads that it compares. Both are means over
+                five frames.
+
+Events, family and pairs of structures that depend on the axes are means over ten random rotations, with Student's 95% interval
+(fits.py). For the others the counts in all rotations must be equal. The default form takes two minutes on 2 cores.
+"""
+
+import kds
+import kds.reading
+import numpy as np
+from common import Report
+from fits import mean_interval
+from subjects import half_longest_bond
+from volumes import OrientedBoxes, Slabs, Spheres, Tree, layered_states, search, search_along
+
+INPUTS = {"villin": ("villin_hp36_300K.dcd", "villin_hp36_300K.pdb", 0.02),
+          "random100": ("random100_400K_first200.dcd", "random100_400K.pdb", 0.02),
+          "dhodh": ("dhodh363_1000K_first20.dcd", "dhodh363_1000K.pdb", 0.1),
+          "ubiquitin": ("ubiquitin_pull_first30.pdb", None, 0.5)}
+RADII = 1.3, 1.9, 3.0  # after the radius at which consecutive beads touch
+SLABS = {"boxes": 3, "14-DOPs": 7, "26-DOPs": 13}
+REFITTED = "layered", "oriented boxes", "tight oriented boxes"
+
+
+def rotations(count, seed=1):
+    """Returns random rotations, uniformly distributed, as matrices."""
+    w, x, y, z = (q := np.random.default_rng(seed).normal(size=(4, count))) / np.linalg.norm(q, axis=0)
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]).transpose(2, 0, 1)
+
+
+def slab_counts(frames, measure="events", **options):
+    """Returns the events or certificates of boxes and k-DOPs."""
+    return {name: counts(kds.run(frames, structures="boxes", directions=k, **options), measure)["boxes"]
+            for name, k in SLABS.items()}
+
+
+def counts(run, measure="events"):
+    """Returns the total of all events, or the most certificates at once, of each structure of a run."""
+    found = {name: one["events"]["total"] if measure == "events" else one["certificates"]["peak"]
+             for name, one in run.summary["structures"].items()}
+    if "dual" in found:
+        found["dual"] += found["power"]
+    return found
+
+
+def other_counts(frames, measure="events", **options):
+    """Returns the events or certificates of kinetic structures that do not depend on the axes."""
+    return counts(kds.run(frames, structures=["wrapped", "power", "dual"], **options), measure)
+
+
+def slab_searches(tree, positions, radius):
+    """Returns family, compared pairs and pairs that meet of boxes and k-DOPs."""
+    return {name: search(tree, Slabs(tree, positions, radius, k), positions, radius) for name, k in SLABS.items()}
+
+
+def other_searches(tree, positions, radius):
+    """Returns the same of structures that do not depend on the axes; diagrams have no family."""
+    trees = {"wrapped": Spheres(kds.wrapped_hierarchy, positions, radius),
+             "layered": Spheres(kds.layered_hierarchy, positions, radius),
+             "oriented boxes": OrientedBoxes(tree, positions, radius),
+             "tight oriented boxes": OrientedBoxes(tree, positions, radius, tight=True)}
+    found = {name: search(tree, volumes, positions, radius) for name, volumes in trees.items()}
+    simplices = kds.run(positions[None].repeat(2, axis=0), radius=radius, structures="dual").dual.elements(0)
+    edges = {"power": kds.power_diagram(positions, radius)[0],
+             "dual": simplices[(simplices[:, 1] >= 0) & (simplices[:, 2] < 0), :2]}
+    return found | {name: (None, *search_along(pairs, positions, radius)) for name, pairs in edges.items()}
+
+
+class Trajectory:
+    """The rows of one trajectory."""
+
+    def __init__(self, frames, spacing, radii, turns, at):
+        self.frames, self.turns, self.at = np.ascontiguousarray(frames), turns, at
+        self.tree = Tree(frames.shape[1])
+        self.times = spacing * np.arange(len(frames))
+        self.rows, self.same_pairs, self.same_turned, self.same_events = [], True, True, True
+        self.turned = [np.ascontiguousarray(self.frames @ turn.T) for turn in turns]
+        turned_slabs = [slab_counts(one, radius=1) for one in self.turned]
+        certificates = slab_counts(self.frames[:3], "certificates", radius=1, kernel="exact")
+        slabs = slab_counts(self.frames, radius=1)
+        before = None
+        for radius in radii:
+            events = other_counts(self.frames, radius=radius)
+            fixed = {name: events[name] for name in events if name != "dual"}
+            self.same_events &= before in (None, fixed)
+            before = fixed
+            most = certificates | other_counts(self.frames[:3], "certificates", radius=radius, kernel="exact")
+            self.add(radius, slabs | events, turned_slabs, most)
+        self.same_turned &= all(other_counts(one, radius=radius) == events for one in self.turned[: len(turns) // 3 + 1])
+
+    def searches(self, frames, radius):
+        """Returns family and compared pairs by structure as means over frames, and whether all searches found what kds finds."""
+        found = []
+        for positions in frames[self.at]:
+            one = slab_searches(self.tree, positions, radius) | other_searches(self.tree, positions, radius)
+            meeting = kds.colliding_pairs(positions, radius)
+            self.same_pairs &= all(np.array_equal(pairs, meeting) for _, _, pairs in one.values())
+            found.append({name: (family, compared) for name, (family, compared, _) in one.items()})
+        return {name: [None if values[0] is None else float(np.mean(values)) for values in zip(*(one[name] for one in found))]
+                for name in found[0]}
+
+    def add(self, radius, events, turned_slabs, certificates):
+        found = self.searches(self.frames, radius)
+        turned = [self.searches(one, radius) for one in self.turned]
+        beads, time = self.tree.beads, float(self.times[-1])
+        for name, (family, compared) in found.items():
+            refits = name in REFITTED
+            total = (beads - 1) * (len(self.frames) - 1) if refits else events[name]
+            row = {"structure": name, "radius": radius, "events": total, "events_per_ps": total / time,
+                   "events_per_ps_bead": total / time / beads, "refits": int(refits), "certificates": certificates.get(name),
+                   "family": family, "pairs": compared}
+            if name in SLABS:
+                for column, values in (("events_per_ps", [one[name] / time for one in turned_slabs]),
+                                       ("family", [one[name][0] for one in turned]), ("pairs", [one[name][1] for one in turned])):
+                    row[column + "_turned"], row[column + "_lower"], row[column + "_upper"] = mean_interval(values)
+            else:
+                self.same_turned &= all(one[name] == found[name] for one in turned)
+            self.rows.append(row)
+
+    def layered_changes(self):
+        """Returns how many nodes of the layered hierarchy change from frame to frame in which child holds the other one."""
+        states = np.array([layered_states(self.tree, positions) for positions in self.frames])
+        return int((states[1:] != states[:-1]).sum())
+
+
+def measure(data, short):
+    """Returns the trajectories by name."""
+    found = {}
+    for name, (file, topology, spacing) in list(INPUTS.items())[: 1 if short else None]:
+        files = data / "trajectories"
+        frames = kds.reading.positions(files / file, files / topology if topology else None)[: 20 if short else None]
+        radii = [half_longest_bond(frames), *(RADII[1:2] if short else RADII)]
+        at = [0] if short else np.linspace(0, len(frames) - 1, 5).astype(int)
+        found[name] = Trajectory(np.array(frames, float), spacing, radii, rotations(2 if short else 10), at)
+    return found
+
+
+def main():
+    report = Report(__doc__)
+    found = measure(report.data, report.short)
+    for name, one in found.items():
+        report.results["rows"] += [{"row": f"{name}, radius {row['radius']:.3g}, {row['structure']}", **row} for row in one.rows]
+    shown = "events_per_ps", "events_per_ps_bead", "certificates", "family", "pairs"
+    report.show(["trajectory, radius, structure", "events / ps", "/ bead", "certificates", "family", "pairs"],
+                [[row["row"], *(row.get(column + "_turned", row[column]) for column in shown)] for row in report.results["rows"]])
+    columns = "events_per_ps", "family", "pairs"
+    report.show(["in random rotations", *(f"{column} {end}" for column in columns for end in ("from", "to"))],
+                [[row["row"], *(row[f"{column}_{end}"] for column in columns for end in ("lower", "upper"))]
+                 for row in report.results["rows"] if row["structure"] in SLABS])
+    for claim, words in (("same_pairs", "All searches find the pairs that kds.colliding_pairs finds"),
+                         ("same_turned", "Counts of all structures but boxes and k-DOPs are equal in all rotations"),
+                         ("same_events", "Events of wrapped and power do not depend on the radius")):
+        report.claim(claim, words, all(getattr(one, claim) for one in found.values()), f"{len(found)} trajectories")
+    changes = {name: one.layered_changes() for name, one in found.items()}
+    report.results["layered_changes"] = changes
+    report.say("  Changes of layered nodes at frames: " + ", ".join(f"{name} {count}" for name, count in changes.items()) + ".")
+    report.finish()
+
+
+if __name__ == "__main__":
+    main()
