@@ -2,8 +2,9 @@
 
 Chain trees are by Lotan, Schwarzer, Halperin and Latombe, Algorithm and data structures for efficient energy maintenance during
 Monte Carlo simulation of proteins (2004). Their bonds and angles are rigid, so that few boxes change in a step. Here all beads
-move, so each frame refits all nodes: a node's box holds the boxes of its two children, or with `tight` the balls of its beads. The
-axes of a box are the principal axes of its beads and of one more bead at each end, so boxes turn with the molecule.
+move, so each frame refits all nodes: a node's box holds the boxes of its two children, or with `tight` the balls of its beads. Its
+axes are those of a child, or the principal axes of its beads and of one more bead at each end: whichever gives the smallest box.
+So boxes turn with the molecule.
 
 Boxes are centres (..., 3), axes (..., 3, 3) as columns, and halves of the sides (..., 3).
 """
@@ -12,7 +13,7 @@ import numpy as np
 
 
 def principal_axes(tree, frames):
-    """Returns the axes of all boxes for frames (frames, beads, 3), from sums along the chain."""
+    """Returns the principal axes of all nodes for frames (frames, beads, 3), from sums along the chain."""
     beads = tree.beads
     low, high = np.clip(tree.first - 1, 0, beads - 3), np.clip(tree.last + 1, 2, beads - 1) + 1
     at = frames - frames.mean(axis=1, keepdims=True)
@@ -28,21 +29,24 @@ def oriented_boxes(tree, frames, radius, tight=False):
     centers, halves = np.empty(axes.shape[:-1]), np.empty(axes.shape[:-1])
     centers[:, : tree.beads], halves[:, : tree.beads] = frames, radius
     for nodes in tree.levels:
-        turned = np.swapaxes(axes[:, nodes], -1, -2)
+        below = tree.halves(nodes)
+        tried = np.stack([axes[:, nodes], *(axes[:, half] for half in below)])  # (3, frames, nodes, 3, 3)
+        turned, ends = np.swapaxes(tried, -1, -2), []
+        for half in below:
+            middle = np.einsum("tfnij,fnj->tfni", turned, centers[:, half])
+            reach = np.einsum("tfnij,fnj->tfni", np.abs(turned @ axes[:, half]), halves[:, half])
+            reach[:, :, half < tree.beads] = radius  # a bead is a ball
+            ends.append((middle - reach, middle + reach))
+        low, high = np.minimum(ends[0][0], ends[1][0]), np.maximum(ends[0][1], ends[1][1])
+        best = (high - low).prod(axis=-1).argmin(axis=0)[None, ..., None]
+        low, high = (np.take_along_axis(one, best, axis=0)[0] for one in (low, high))
+        axes[:, nodes] = np.take_along_axis(tried, best[..., None], axis=0)[0]
         if tight:
-            inside = [np.arange(one, last + 1) for one, last in zip(tree.first[nodes], tree.last[nodes])]
-            owner, starts = np.repeat(np.arange(len(nodes)), list(map(len, inside))), np.cumsum([0, *map(len, inside[:-1])])
-            along = np.einsum("fnij,fnj->fni", turned[:, owner], frames[:, np.concatenate(inside)])
+            count = tree.last[nodes] - tree.first[nodes] + 1
+            starts = np.concatenate([[0], np.cumsum(count)[:-1]])
+            beads = np.arange(count.sum()) + np.repeat(tree.first[nodes] - starts, count)
+            along = np.einsum("fnji,fnj->fni", np.repeat(axes[:, nodes], count, axis=1), frames[:, beads])
             low, high = np.minimum.reduceat(along, starts, axis=1) - radius, np.maximum.reduceat(along, starts, axis=1) + radius
-        else:
-            ends = []
-            for half in tree.halves(nodes):
-                middle = np.einsum("fnij,fnj->fni", turned, centers[:, half])
-                reach = np.einsum("fnij,fnj->fni", np.abs(turned @ axes[:, half]), halves[:, half])
-                reach[:, half < tree.beads] = radius  # a bead is a ball
-                ends.append((middle - reach, middle + reach))
-            (low, high), (other_low, other_high) = ends
-            low, high = np.minimum(low, other_low), np.maximum(high, other_high)
         centers[:, nodes] = np.einsum("fnij,fnj->fni", axes[:, nodes], (low + high) / 2)
         halves[:, nodes] = (high - low) / 2
     return centers, axes, halves

@@ -28,6 +28,9 @@ INPUTS = {"villin": ("villin_hp36_300K.dcd", "villin_hp36_300K.pdb", 0.02),
           "ubiquitin": ("ubiquitin_pull_first30.pdb", None, 0.5)}
 RADII = 1.3, 1.9, 3.0  # after the radius at which consecutive beads touch
 SLABS = {"boxes": 3, "14-DOPs": 7, "26-DOPs": 13}
+STYLES = {"wrapped": ("#2f6ea5", "o"), "layered": ("#8fb8de", "o"), "boxes": ("#b3462f", "s"), "14-DOPs": ("#c98a1b", "p"),
+          "26-DOPs": ("#7a5c1e", "h"), "oriented boxes": ("#9aa5b1", "D"), "tight oriented boxes": ("#52606d", "D"),
+          "power": ("#3b8a5a", "^"), "dual": ("#1f2933", "v")}
 REFITTED = "layered", "oriented boxes", "tight oriented boxes"
 
 
@@ -97,7 +100,7 @@ class Trajectory:
             before = fixed
             most = certificates | other_counts(self.frames[:3], "certificates", radius=radius, kernel="exact")
             self.add(radius, slabs | events, turned_slabs, most)
-        self.same_turned &= all(other_counts(one, radius=radius) == events for one in self.turned[: len(turns) // 3 + 1])
+        self.same_turned &= all(other_counts(one, radius=radius) == events for one in self.turned)
 
     def searches(self, frames, radius):
         """Returns family and compared pairs by structure as means over frames, and whether all searches found what kds finds."""
@@ -117,9 +120,8 @@ class Trajectory:
         for name, (family, compared) in found.items():
             refits = name in REFITTED
             total = (beads - 1) * (len(self.frames) - 1) if refits else events[name]
-            row = {"structure": name, "radius": radius, "events": total, "events_per_ps": total / time,
-                   "events_per_ps_bead": total / time / beads, "refits": int(refits), "certificates": certificates.get(name),
-                   "family": family, "pairs": compared}
+            row = {"structure": name, "beads": beads, "radius": radius, "events": total, "events_per_ps": total / time,
+                   "certificates": certificates.get(name), "family": family, "pairs": compared}
             if name in SLABS:
                 for column, values in (("events_per_ps", [one[name] / time for one in turned_slabs]),
                                        ("family", [one[name][0] for one in turned]), ("pairs", [one[name][1] for one in turned])):
@@ -132,6 +134,37 @@ class Trajectory:
         """Returns how many nodes of the layered hierarchy change from frame to frame in which child holds the other one."""
         states = np.array([layered_states(self.tree, positions) for positions in self.frames])
         return int((states[1:] != states[:-1]).sum())
+
+
+def mean(row, column):
+    """Returns the mean over rotations if the column depends on them."""
+    return row.get(column + "_turned", row[column])
+
+
+def draw(found, path):
+    """Draws events against compared pairs, both by bead: a line for each structure, a mark for each radius."""
+    import matplotlib
+
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})  # text stays text, and files do not vary
+    figure, every = pyplot.subplots(2, 2, figsize=(9, 7.6), sharex=True, layout="constrained")
+    for axes, (name, one) in zip(every.flat, found.items()):
+        for structure, (color, mark) in STYLES.items():
+            rows = [row for row in one.rows if row["structure"] == structure]
+            refits = structure in REFITTED
+            axes.plot([mean(row, "pairs") / row["beads"] for row in rows],
+                      [mean(row, "events_per_ps") / row["beads"] for row in rows], color=color, marker=mark, markersize=6,
+                      fillstyle="none" if refits else "full", linestyle=":" if refits else "-", label=structure)
+        axes.set(xscale="log", yscale="log", title=name)
+        axes.grid(color="#e4e7eb", linewidth=0.6)
+    figure.supxlabel("compared pairs per bead, at four radii from the necklace's own to 3 angstrom")
+    figure.supylabel("events (filled) or refits (hollow) per bead and picosecond")
+    handles, labels = every[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=5, frameon=False)
+    figure.savefig(path, metadata={"Date": None})
+    pyplot.close(figure)
 
 
 def measure(data, short):
@@ -151,10 +184,10 @@ def main():
     found = measure(report.data, report.short)
     for name, one in found.items():
         report.results["rows"] += [{"row": f"{name}, radius {row['radius']:.3g}, {row['structure']}", **row} for row in one.rows]
-    shown = "events_per_ps", "events_per_ps_bead", "certificates", "family", "pairs"
-    report.show(["trajectory, radius, structure", "events / ps", "/ bead", "certificates", "family", "pairs"],
-                [[row["row"], *(row.get(column + "_turned", row[column]) for column in shown)] for row in report.results["rows"]])
     columns = "events_per_ps", "family", "pairs"
+    report.show(["trajectory, radius, structure", "events / ps", "family", "pairs", "/ ps bead", "certificates", "pairs / bead"],
+                [[row["row"], *(mean(row, column) for column in columns), mean(row, "events_per_ps") / row["beads"],
+                  row["certificates"], mean(row, "pairs") / row["beads"]] for row in report.results["rows"]])
     report.show(["in random rotations", *(f"{column} {end}" for column in columns for end in ("from", "to"))],
                 [[row["row"], *(row[f"{column}_{end}"] for column in columns for end in ("lower", "upper"))]
                  for row in report.results["rows"] if row["structure"] in SLABS])

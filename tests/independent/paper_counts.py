@@ -147,6 +147,31 @@ class Node:
                 yield from child.nodes()
 
 
+    def size(self):
+        return self.radius
+
+    def is_apart(self, other):
+        return bool(numpy.linalg.norm(self.center - other.center) > self.radius + other.radius)
+
+
+class Box(Node):
+    """A node with the smallest axis-aligned box around its balls."""
+
+    def __init__(self, points, first, last, radius):
+        self.first, self.last, self.children = first, last, ()
+        if first != last:
+            middle = first + (last - first) // 2
+            self.children = (Box(points, first, middle, radius), Box(points, middle + 1, last, radius))
+        beads = points[first : last + 1]
+        self.low, self.high = beads.min(0) - radius, beads.max(0) + radius
+
+    def size(self):
+        return (self.high - self.low).prod()
+
+    def is_apart(self, other):
+        return bool((self.low > other.high).any() or (other.low > self.high).any())
+
+
 def around(a, b):
     """Returns the smallest sphere around two spheres."""
     apart = numpy.linalg.norm(b.center - a.center)
@@ -181,6 +206,36 @@ def separating_pairs(root, apart, other=None):
         elif v.children:
             waiting += [(u, child) for child in v.children]
     return pairs
+
+
+def larger_first(root, points, radius):
+    """Splits the larger node, and the first of two equal ones. Beads are compared as balls. Returns the number of
+    disjoint pairs, and of pairs that are compared."""
+    disjoint, compared, waiting = 0, 0, [node.children for node in root.nodes()]
+    while waiting:
+        u, v = waiting.pop()
+        if v.last - u.first < 2:
+            continue
+        compared += 1
+        if not u.children and not v.children:
+            disjoint += bool(numpy.linalg.norm(points[u.first] - points[v.first]) > 2 * radius)
+        elif u.is_apart(v):
+            disjoint += 1
+        elif not v.children or (u.children and u.size() >= v.size()):
+            waiting += [(child, v) for child in u.children]
+        else:
+            waiting += [(u, child) for child in v.children]
+    return disjoint, compared
+
+
+def compared_along(edges, points, radius):
+    """Returns the number of pairs, at least 2 apart, of a bead and a neighbour of a bead that it meets, or of itself."""
+    beads = len(points)
+    joined = numpy.zeros((beads, beads), dtype=bool)
+    joined[tuple(edges.T)] = joined[tuple(edges.T[::-1])] = True
+    meets = ((points[:, None] - points[None, :]) ** 2).sum(2) <= (2 * radius) ** 2
+    compared = meets.astype(int) @ joined > 0
+    return int((compared | compared.T)[numpy.triu_indices(beads, 2)].sum())
 
 
 def covers_once(points, radius, pairs, apart):
@@ -454,11 +509,33 @@ def compare_bounds():
             check(f"families of 1l2y, {kind}, {name}", expected[name], math.ceil(least - 1e-6))
 
 
+# --- structures of experiments/paper/structures.py ---
+
+
+def compare_structures():
+    """Family and compared pairs of spheres and boxes, and of the diagram, at the first frame of villin."""
+    counts = json.loads((Path(__file__).resolve().parents[1] / "paper/structures.json").read_text())
+    villin = read_dcd(os.path.join(DATA, "trajectories/villin_hp36_300K.dcd"))[:20]
+    points = villin[0]
+    for radius in (half_longest_bond(villin), 1.9):
+        roots = {"wrapped": tree_over(points, radius), "layered": tree_over(points, radius, True),
+                 "boxes": Box(points, 0, len(points) - 1, radius)}
+        for name, root in roots.items():
+            row = counts[f"villin, radius {radius:.3g}, {name}"]
+            check(f"{name}, radius {radius:.3g}", (row["family"], row["pairs"]), larger_first(root, points, radius))
+        if Delaunay:
+            corners = Delaunay(points).simplices
+            edges = numpy.unique(numpy.concatenate([corners[:, list(ends)] for ends in itertools.permutations(range(4), 2)]), axis=0)
+            row = counts[f"villin, radius {radius:.3g}, power"]
+            check(f"power, radius {radius:.3g}", row["pairs"], compared_along(edges, points, radius))
+
+
 compare_families()
 compare_tables()
 compare_lifetimes()
 compare_spirals()
 compare_bounds()
 compare_peers()
+compare_structures()
 print(f"{CHECKS - len(FAILURES)} of {CHECKS} counts agree")
 sys.exit(1 if FAILURES else 0)
