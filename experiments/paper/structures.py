@@ -1,17 +1,17 @@
 """Structures for collision detection of one chain, counted at one definition.
 
-All hierarchies have the same balanced tree over the chain and the same search (volumes.py): pairs of beads at least 2 apart, both
-halves of each node first, and then the larger volume is split. Diagrams are searched along their edges. Columns:
+All hierarchies have the same balanced tree over the chain and the same search (volumes.py): pairs of beads at least 2 apart, the
+two halves of each node first, and then the larger volume is split. Diagrams are searched along their edges. Columns:
 
-  events        changes of a kinetic structure by picoseconds, exact on straight paths between frames; those of the dual complex
-                include the flips of its power diagram. Layered spheres and oriented boxes have no events: all nodes are computed
-                anew at each frame, and these refits are counted instead.
+  events        changes of a kinetic structure a picosecond, exact on straight paths between frames. Those of the dual complex
+                include the flips of its power diagram. Layered spheres and oriented boxes have no events: all nodes are
+                computed anew at each frame, and these refits are counted instead.
   certificates  at once at most in the first two steps, without those that slack leaves out (kernel exact)
-  family        pairs of disjoint volumes that a search finds; pairs: pairs of nodes or beads that it compares. Both are means over
-                five frames.
+  family        pairs of disjoint volumes that a search finds, mean over five frames
+  pairs         pairs of nodes or beads that a search compares, mean over five frames
 
 Events, family and pairs of structures that depend on the axes are means over ten random rotations, with Student's 95% interval
-(fits.py). For the others the counts in all rotations must be equal. The default form takes two minutes on 2 cores.
+(fits.py). For the others the counts in all rotations must be equal. The default form takes three minutes on 2 cores.
 """
 
 import kds
@@ -103,7 +103,7 @@ class Trajectory:
         self.same_turned &= all(other_counts(one, radius=radius) == events for one in self.turned)
 
     def searches(self, frames, radius):
-        """Returns family and compared pairs by structure as means over frames, and whether all searches found what kds finds."""
+        """Returns family and compared pairs of each structure as means over frames. Compares the pairs that meet with those of kds."""
         found = []
         for positions in frames[self.at]:
             one = slab_searches(self.tree, positions, radius) | other_searches(self.tree, positions, radius)
@@ -124,7 +124,8 @@ class Trajectory:
                    "certificates": certificates.get(name), "family": family, "pairs": compared}
             if name in SLABS:
                 for column, values in (("events_per_ps", [one[name] / time for one in turned_slabs]),
-                                       ("family", [one[name][0] for one in turned]), ("pairs", [one[name][1] for one in turned])):
+                                       ("family", [one[name][0] for one in turned]),
+                                       ("pairs", [one[name][1] for one in turned])):
                     row[column + "_turned"], row[column + "_lower"], row[column + "_upper"] = mean_interval(values)
             else:
                 self.same_turned &= all(one[name] == found[name] for one in turned)
@@ -142,14 +143,14 @@ def mean(row, column):
 
 
 def draw(found, path):
-    """Draws events against compared pairs, both by bead: a line for each structure, a mark for each radius."""
+    """Draws events against compared pairs, both by bead: a line for each structure with a mark for each radius, ascending."""
     import matplotlib
 
     matplotlib.use("svg")
-    from matplotlib import pyplot
+    from matplotlib import pyplot, ticker
 
     pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})  # text stays text, and files do not vary
-    figure, every = pyplot.subplots(2, 2, figsize=(9, 7.6), sharex=True, layout="constrained")
+    figure, every = pyplot.subplots(2, 2, figsize=(9, 8), sharex=True)
     for axes, (name, one) in zip(every.flat, found.items()):
         for structure, (color, mark) in STYLES.items():
             rows = [row for row in one.rows if row["structure"] == structure]
@@ -158,11 +159,17 @@ def draw(found, path):
                       [mean(row, "events_per_ps") / row["beads"] for row in rows], color=color, marker=mark, markersize=6,
                       fillstyle="none" if refits else "full", linestyle=":" if refits else "-", label=structure)
         axes.set(xscale="log", yscale="log", title=name)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+            axis.set_minor_locator(ticker.NullLocator())
+            axis.set_major_formatter("{x:g}")
         axes.grid(color="#e4e7eb", linewidth=0.6)
-    figure.supxlabel("compared pairs per bead, at four radii from the necklace's own to 3 angstrom")
-    figure.supylabel("events (filled) or refits (hollow) per bead and picosecond")
-    handles, labels = every[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=5, frameon=False)
+    for axes in every[:, 0]:
+        axes.set_ylabel("events (filled) or refits (hollow) / bead / ps")
+    for axes in every[1]:
+        axes.set_xlabel("compared pairs / bead")
+    figure.legend(*every[0, 0].get_legend_handles_labels(), loc="lower center", ncols=5, frameon=False)
+    figure.tight_layout(rect=(0, 0.06, 1, 1))
     figure.savefig(path, metadata={"Date": None})
     pyplot.close(figure)
 
@@ -183,9 +190,10 @@ def main():
     report = Report(__doc__)
     found = measure(report.data, report.short)
     for name, one in found.items():
-        report.results["rows"] += [{"row": f"{name}, radius {row['radius']:.3g}, {row['structure']}", **row} for row in one.rows]
+        report.results["rows"] += [{"row": f"{name}, radius {row['radius']:.3g}, {row['structure']}", **row}
+                                   for row in one.rows]
     columns = "events_per_ps", "family", "pairs"
-    report.show(["trajectory, radius, structure", "events / ps", "family", "pairs", "/ ps bead", "certificates", "pairs / bead"],
+    report.show(["radius in angstrom", "events / ps", "family", "pairs", "events / ps bead", "certificates", "pairs / bead"],
                 [[row["row"], *(mean(row, column) for column in columns), mean(row, "events_per_ps") / row["beads"],
                   row["certificates"], mean(row, "pairs") / row["beads"]] for row in report.results["rows"]])
     report.show(["in random rotations", *(f"{column} {end}" for column in columns for end in ("from", "to"))],

@@ -1,8 +1,8 @@
 """Bounding volumes of one necklace over the balanced tree that all hierarchies of kds share, and one search for all of them.
 
-Beads have the numbers 0 to n - 1, and nodes come after them in preorder, as kds returns them. Volumes are arrays over beads, then
-nodes, and refer to equal balls. A volume has `size`, by which the search decides what to split, and `apart(u, v)`, which returns for
-arrays of numbers whether volumes u and v are surely disjoint.
+Beads have the numbers 0 to n - 1, and nodes come after them in preorder, as kds returns them. All balls have one radius. Volumes
+are arrays over beads, then nodes. They have `size`, by which the search decides what to split, and `apart(u, v)`, which returns
+for arrays of numbers whether volumes u and v are surely disjoint.
 """
 
 import kds
@@ -12,6 +12,7 @@ from oriented_boxes import oriented_boxes, separated
 # The slabs of boxes and k-DOPs: the axes, then the diagonals through corners of a cube, then those through its edges.
 DIRECTIONS = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1], [1, 1, -1], [1, -1, 1], [-1, 1, 1], [1, 1, 0], [1, 0, 1],
                        [0, 1, 1], [1, -1, 0], [1, 0, -1], [0, 1, -1]], float)
+SPANNER_REACH = 12  # of the spanner's default stretch: centres of a level are joined up to 12 times its scale
 
 
 class Tree:
@@ -84,9 +85,9 @@ class OrientedBoxes:
 def search(tree, volumes, positions, radius, by_beads=False):
     """Finds the pairs of beads that meet and are at least 2 apart along the chain.
 
-    Begins with the two halves of each node. If the volumes of a pair are not apart, the larger one is split, or with `by_beads` the
-    one with more beads; the first one of equal ones. Two beads are compared by their balls. Returns the number of disjoint pairs,
-    which is the separating family, the number of pairs that were compared, and the pairs that meet.
+    Begins with the two halves of each node. If the volumes of a pair are not apart, the larger one is split, or with `by_beads`
+    the one with more beads; the first one of equal ones. Two beads are compared by their balls. Returns the number of disjoint
+    pairs, which is the size of the separating family, the number of pairs that were compared, and the pairs that meet.
     """
     size = tree.last - tree.first if by_beads else volumes.size
     u, v = tree.children.T
@@ -114,9 +115,9 @@ def search(tree, volumes, positions, radius, by_beads=False):
 def search_along(edges, positions, radius):
     """Finds the same pairs along edges of the power diagram, or of the dual complex, of equal balls.
 
-    The segment between the centres of two balls that meet crosses the cells of beads that are at most 2 radii from both ends, and
-    each two cells that it crosses in turn share an edge of both structures. So a search from each bead, which goes on from beads
-    that meet it, finds them all. Returns the number of pairs that were compared, and the pairs that meet.
+    The segment between the centres of two balls that meet crosses the cells of beads that meet both balls. Any two cells that it
+    crosses one after the other have a common point within both balls, so an edge of both structures joins them. So a search from
+    each bead, which goes on from beads that meet it, finds all. Returns the number of compared pairs, and the pairs that meet.
     """
     beads = len(positions)
     neighbours = [[] for _ in range(beads)]
@@ -138,8 +139,46 @@ def search_along(edges, positions, radius):
     return len(compared), np.array(meeting, int).reshape(-1, 2)
 
 
+def search_spanner(elements, positions, radius, unit):
+    """Finds the same pairs in the spanner. `elements` are its edges and centres as kds returns them; `unit` scales level 0.
+
+    All beads below a centre of a level are within twice the scale of the level. So the centres above two beads that meet are
+    joined, or equal, at the first level where 2 radii and 4 scales are at most SPANNER_REACH scales. The search begins with all
+    pairs there, goes down to their children, and leaves out pairs that are too far apart. Returns as search_along does.
+    """
+    is_edge = elements[:, 1] >= 0
+    beads, _, parents, tops = elements[~is_edge, :4][np.argsort(elements[~is_edge, 0])].T
+    level = max(0, int(np.ceil(np.log2(2 * radius / ((SPANNER_REACH - 4) * unit)))))
+
+    def near(u, v, distance):
+        kept = np.linalg.norm(positions[u] - positions[v], axis=1) <= distance
+        return u[kept], v[kept]
+
+    u, v = elements[is_edge, :2].T
+    at_level = (tops[u] >= level) & (tops[v] >= level)
+    u, v = near(u[at_level], v[at_level], SPANNER_REACH * unit * 2.0**level)
+    compared = [u * len(positions) + v]
+    u, v = np.concatenate([u, beads[tops >= level]]), np.concatenate([v, beads[tops >= level]])
+    while tops.min() < level:
+        u, v = near(u, v, 2 * radius + 4 * unit * 2.0**level)
+        level -= 1
+        children = beads[tops == level]
+        for _ in range(2):  # replaces the first centre by itself and its children, then the second
+            below = children[np.argsort(parents[children], kind="stable")]
+            starts, ends = (np.searchsorted(parents[below], u, side) for side in ("left", "right"))
+            rows = np.repeat(np.arange(len(u)), ends - starts)
+            offsets = np.arange(len(rows)) - np.repeat(np.cumsum(ends - starts) - (ends - starts), ends - starts)
+            u, v = np.concatenate([v, v[rows]]), np.concatenate([u, below[starts[rows] + offsets]])
+        u, v = np.divmod(np.unique(np.minimum(u, v) * len(positions) + np.maximum(u, v)), len(positions))
+        compared.append((u * len(positions) + v)[u < v])
+    u, v = near(u, v, 2 * radius)
+    ones, others = np.divmod(np.unique(np.concatenate(compared)), len(positions))
+    pairs = np.stack([u, v], axis=1)[v - u >= 2]
+    return int((others - ones >= 2).sum()), pairs[np.lexsort(pairs.T[::-1])]
+
+
 def layered_states(tree, positions):
-    """Returns for each node of the layered hierarchy of points which child holds the other: 0 neither, 1 the first, 2 the second."""
+    """Returns for each node of the layered hierarchy which child holds the other: 0 neither, 1 the first, 2 the second."""
     spheres = Spheres(kds.layered_hierarchy, positions, 0).spheres
     left, right = (spheres[half] for half in tree.children.T)
     apart = np.linalg.norm(left[:, :3] - right[:, :3], axis=1)
