@@ -1,10 +1,10 @@
 """Oriented boxes over a chain, refitted at frames.
 
-Chain trees are by Lotan, Schwarzer, Halperin and Latombe, Algorithm and data structures for efficient energy maintenance during
-Monte Carlo simulation of proteins (2004). Few torsions change in a step of theirs. Here all beads move, so each frame refits all
-nodes: a node's box holds the boxes of its two children, or with `tight` the balls of its beads. Its axes are those of a child, or
-the principal axes of its beads and of one more bead at each end: whichever gives the smallest box that holds the children's
-boxes. So boxes turn with the molecule.
+Chain trees are by Lotan, Schwarzer, Halperin and Latombe, Algorithm and data structures for efficient energy maintenance
+during Monte Carlo simulation of proteins (2004). Few torsions change in a step of theirs. Here all beads move, so each frame
+refits all nodes: a node's box holds the boxes of its two children, or with `tight` the balls of its beads. Its axes are those
+of a child, or the principal axes of its beads and of one more bead at each end: whichever give the smallest box that holds the
+children's boxes. So boxes turn with the molecule.
 
 Boxes are centres (..., 3), axes (..., 3, 3) as columns, and halves of the sides (..., 3).
 """

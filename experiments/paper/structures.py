@@ -1,7 +1,7 @@
 """Structures for collision detection of one chain, counted at one definition.
 
-All hierarchies have the same balanced tree over the chain and the same search (volumes.py): pairs of beads at least 2 apart, the
-two halves of each node first, and then the larger volume is split. Diagrams are searched along their edges. Columns:
+All hierarchies have the same balanced tree over the chain and the same search (volumes.py): pairs of beads at least 2 apart,
+the two halves of each node first, and then the larger volume is split. Diagrams are searched along their edges. Columns:
 
   events        changes of a kinetic structure a picosecond, exact on straight paths between frames. Those of the dual complex
                 include the flips of its power diagram. Layered spheres and oriented boxes have no events: all nodes are
@@ -103,7 +103,7 @@ class Trajectory:
         self.same_turned &= all(other_counts(one, radius=radius) == events for one in self.turned)
 
     def searches(self, frames, radius):
-        """Returns family and compared pairs of each structure as means over frames. Compares the pairs that meet with those of kds."""
+        """Returns family and compared pairs of each structure, means over frames. Checks that the pairs that meet are right."""
         found = []
         for positions in frames[self.at]:
             one = slab_searches(self.tree, positions, radius) | other_searches(self.tree, positions, radius)

@@ -1,8 +1,8 @@
 """Bounding volumes of one necklace over the balanced tree that all hierarchies of kds share, and one search for all of them.
 
-Beads have the numbers 0 to n - 1, and nodes come after them in preorder, as kds returns them. All balls have one radius. Volumes
-are arrays over beads, then nodes. They have `size`, by which the search decides what to split, and `apart(u, v)`, which returns
-for arrays of numbers whether volumes u and v are surely disjoint.
+Beads have the numbers 0 to n - 1, and nodes come after them in preorder, as kds returns them. All balls have one radius. All
+volumes of a kind are arrays over beads, then nodes. They have `size`, by which the search decides what to split, and
+`apart(u, v)`, which returns for arrays of numbers whether volumes u and v are surely disjoint.
 """
 
 import kds
@@ -115,9 +115,9 @@ def search(tree, volumes, positions, radius, by_beads=False):
 def search_along(edges, positions, radius):
     """Finds the same pairs along edges of the power diagram, or of the dual complex, of equal balls.
 
-    The segment between the centres of two balls that meet crosses the cells of beads that meet both balls. Any two cells that it
-    crosses one after the other have a common point within both balls, so an edge of both structures joins them. So a search from
-    each bead, which goes on from beads that meet it, finds all. Returns the number of compared pairs, and the pairs that meet.
+    The segment between the centres of two balls that meet crosses the cells of beads that meet both balls. Two cells that it
+    crosses one after the other have a common point within both balls, so an edge of both structures joins them. A search from
+    each bead, which goes on from beads that meet it, thus finds all. Returns the number of compared pairs, and those that meet.
     """
     beads = len(positions)
     neighbours = [[] for _ in range(beads)]
