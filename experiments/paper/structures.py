@@ -4,8 +4,9 @@ All hierarchies have the same balanced tree over the chain and the same search (
 the two halves of each node first, and then the larger volume is split. Diagrams are searched along their edges. Columns:
 
   events        changes of a kinetic structure a picosecond, exact on straight paths between frames. Those of the dual complex
-                include the flips of its power diagram. Layered spheres and oriented boxes have no events: all nodes are
-                computed anew at each frame, and these refits are counted instead.
+                include the flips of its power diagram, and those of the spanner the changes of levels within it. Layered
+                spheres and oriented boxes have no events: all nodes are computed anew at each frame, and these refits are
+                counted instead.
   certificates  at once at most in the first two steps, without those that slack leaves out (kernel exact)
   family        pairs of disjoint volumes that a search finds, mean over five frames
   pairs         pairs of nodes or beads that a search compares, mean over five frames
@@ -20,7 +21,7 @@ import numpy as np
 from common import Report
 from fits import mean_interval
 from subjects import half_longest_bond
-from volumes import OrientedBoxes, Slabs, Spheres, Tree, layered_states, search, search_along
+from volumes import OrientedBoxes, Slabs, Spheres, Tree, layered_states, search, search_along, search_spanner
 
 INPUTS = {"villin": ("villin_hp36_300K.dcd", "villin_hp36_300K.pdb", 0.02),
           "random100": ("random100_400K_first200.dcd", "random100_400K.pdb", 0.02),
@@ -30,7 +31,8 @@ RADII = 1.3, 1.9, 3.0  # after the radius at which consecutive beads touch
 SLABS = {"boxes": 3, "14-DOPs": 7, "26-DOPs": 13}
 STYLES = {"wrapped": ("#2f6ea5", "o"), "layered": ("#8fb8de", "o"), "boxes": ("#b3462f", "s"), "14-DOPs": ("#c98a1b", "p"),
           "26-DOPs": ("#7a5c1e", "h"), "oriented boxes": ("#9aa5b1", "D"), "tight oriented boxes": ("#52606d", "D"),
-          "power": ("#3b8a5a", "^"), "dual": ("#1f2933", "v")}
+          "power": ("#3b8a5a", "^"), "dual": ("#1f2933", "v"), "spanner": ("#a23b72", "P")}
+DEPEND_ON_AXES = *SLABS, "spanner"
 REFITTED = "layered", "oriented boxes", "tight oriented boxes"
 
 
@@ -42,15 +44,16 @@ def rotations(count, seed=1):
                      [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]).transpose(2, 0, 1)
 
 
-def slab_counts(frames, measure="events", **options):
-    """Returns the events or certificates of boxes and k-DOPs."""
-    return {name: counts(kds.run(frames, structures="boxes", directions=k, **options), measure)["boxes"]
-            for name, k in SLABS.items()}
+def axis_counts(frames, measure="events", **options):
+    """Returns the events or certificates of kinetic structures that depend on the axes. The spanner does by its unit alone."""
+    found = {name: counts(kds.run(frames, structures="boxes", directions=k, **options), measure)["boxes"]
+             for name, k in SLABS.items()}
+    return found | counts(kds.run(frames, structures="spanner", **options), measure)
 
 
 def counts(run, measure="events"):
-    """Returns the total of all events, or the most certificates at once, of each structure of a run."""
-    found = {name: one["events"]["total"] if measure == "events" else one["certificates"]["peak"]
+    """Returns the number of all events, internal ones too, or the most certificates at once, of each structure of a run."""
+    found = {name: sum(one["events"].values()) - one["events"]["total"] if measure == "events" else one["certificates"]["peak"]
              for name, one in run.summary["structures"].items()}
     if "dual" in found:
         found["dual"] += found["power"]
@@ -62,9 +65,11 @@ def other_counts(frames, measure="events", **options):
     return counts(kds.run(frames, structures=["wrapped", "power", "dual"], **options), measure)
 
 
-def slab_searches(tree, positions, radius):
-    """Returns family, compared pairs and pairs that meet of boxes and k-DOPs."""
-    return {name: search(tree, Slabs(tree, positions, radius, k), positions, radius) for name, k in SLABS.items()}
+def axis_searches(tree, positions, radius):
+    """Returns family, compared pairs and pairs that meet of structures that depend on the axes; the spanner has no family."""
+    found = {name: search(tree, Slabs(tree, positions, radius, k), positions, radius) for name, k in SLABS.items()}
+    elements = kds.run(positions[None].repeat(2, axis=0), radius=radius, structures="spanner").spanner.elements(0)
+    return found | {"spanner": (None, *search_spanner(elements, positions, radius))}
 
 
 def other_searches(tree, positions, radius):
@@ -89,9 +94,9 @@ class Trajectory:
         self.times = spacing * np.arange(len(frames))
         self.rows, self.same_pairs, self.same_turned, self.same_events = [], True, True, True
         self.turned = [np.ascontiguousarray(self.frames @ turn.T) for turn in turns]
-        turned_slabs = [slab_counts(one, radius=1) for one in self.turned]
-        certificates = slab_counts(self.frames[:3], "certificates", radius=1, kernel="exact")
-        slabs = slab_counts(self.frames, radius=1)
+        turned_counts = [axis_counts(one, radius=1) for one in self.turned]
+        certificates = axis_counts(self.frames[:3], "certificates", radius=1, kernel="exact")
+        by_axes = axis_counts(self.frames, radius=1)
         before = None
         for radius in radii:
             events = other_counts(self.frames, radius=radius)
@@ -99,21 +104,21 @@ class Trajectory:
             self.same_events &= before in (None, fixed)
             before = fixed
             most = certificates | other_counts(self.frames[:3], "certificates", radius=radius, kernel="exact")
-            self.add(radius, slabs | events, turned_slabs, most)
+            self.add(radius, by_axes | events, turned_counts, most)
         self.same_turned &= all(other_counts(one, radius=radius) == events for one in self.turned)
 
     def searches(self, frames, radius):
         """Returns family and compared pairs of each structure, means over frames. Checks that the pairs that meet are right."""
         found = []
         for positions in frames[self.at]:
-            one = slab_searches(self.tree, positions, radius) | other_searches(self.tree, positions, radius)
+            one = axis_searches(self.tree, positions, radius) | other_searches(self.tree, positions, radius)
             meeting = kds.colliding_pairs(positions, radius)
             self.same_pairs &= all(np.array_equal(pairs, meeting) for _, _, pairs in one.values())
             found.append({name: (family, compared) for name, (family, compared, _) in one.items()})
         return {name: [None if values[0] is None else float(np.mean(values)) for values in zip(*(one[name] for one in found))]
                 for name in found[0]}
 
-    def add(self, radius, events, turned_slabs, certificates):
+    def add(self, radius, events, turned_counts, certificates):
         found = self.searches(self.frames, radius)
         turned = [self.searches(one, radius) for one in self.turned]
         beads, time = self.tree.beads, float(self.times[-1])
@@ -122,10 +127,12 @@ class Trajectory:
             total = (beads - 1) * (len(self.frames) - 1) if refits else events[name]
             row = {"structure": name, "beads": beads, "radius": radius, "events": total, "events_per_ps": total / time,
                    "certificates": certificates.get(name), "family": family, "pairs": compared}
-            if name in SLABS:
-                for column, values in (("events_per_ps", [one[name] / time for one in turned_slabs]),
-                                       ("family", [one[name][0] for one in turned]),
-                                       ("pairs", [one[name][1] for one in turned])):
+            if name in DEPEND_ON_AXES:
+                columns = {"events_per_ps": [one[name] / time for one in turned_counts],
+                           "family": [one[name][0] for one in turned], "pairs": [one[name][1] for one in turned]}
+                for column, values in columns.items():
+                    if None in values:
+                        continue
                     row[column + "_turned"], row[column + "_lower"], row[column + "_upper"] = mean_interval(values)
             else:
                 self.same_turned &= all(one[name] == found[name] for one in turned)
@@ -197,10 +204,10 @@ def main():
                 [[row["row"], *(mean(row, column) for column in columns), mean(row, "events_per_ps") / row["beads"],
                   row["certificates"], mean(row, "pairs") / row["beads"]] for row in report.results["rows"]])
     report.show(["in random rotations", *(f"{column} {end}" for column in columns for end in ("from", "to"))],
-                [[row["row"], *(row[f"{column}_{end}"] for column in columns for end in ("lower", "upper"))]
-                 for row in report.results["rows"] if row["structure"] in SLABS])
+                [[row["row"], *(row.get(f"{column}_{end}") for column in columns for end in ("lower", "upper"))]
+                 for row in report.results["rows"] if row["structure"] in DEPEND_ON_AXES])
     for claim, words in (("same_pairs", "All searches find the pairs that kds.colliding_pairs finds"),
-                         ("same_turned", "Counts of all structures but boxes and k-DOPs are equal in all rotations"),
+                         ("same_turned", "Counts of all but boxes, k-DOPs and the spanner are equal in all rotations"),
                          ("same_events", "Events of wrapped and power do not depend on the radius")):
         report.claim(claim, words, all(getattr(one, claim) for one in found.values()), f"{len(found)} trajectories")
     changes = {name: one.layered_changes() for name, one in found.items()}

@@ -139,13 +139,14 @@ def search_along(edges, positions, radius):
     return len(compared), np.array(meeting, int).reshape(-1, 2)
 
 
-def search_spanner(elements, positions, radius, unit):
-    """Finds the same pairs in the spanner. `elements` are its edges and centres as kds returns them; `unit` scales level 0.
+def search_spanner(elements, positions, radius):
+    """Finds the same pairs in the spanner that kds has built at these positions. `elements` are its edges and centres.
 
     All beads below a centre of a level are within twice the scale of the level. So the centres above two beads that meet are
     joined, or equal, at the first level where 2 radii and 4 scales are at most SPANNER_REACH scales. The search begins with all
     pairs there, goes down to their children, and leaves out pairs that are too far apart. Returns as search_along does.
     """
+    unit = 2.0**(np.floor(np.log2(np.ptp(positions, axis=0).max())) - 30)  # the scale of level 0 (spanner.h)
     is_edge = elements[:, 1] >= 0
     beads, _, parents, tops = elements[~is_edge, :4][np.argsort(elements[~is_edge, 0])].T
     level = max(0, int(np.ceil(np.log2(2 * radius / ((SPANNER_REACH - 4) * unit)))))
