@@ -12,8 +12,11 @@ the two halves of each node first, and then the larger volume is split. Diagrams
   pairs         pairs of nodes or beads that a search compares, mean over five frames
 
 Events, family and pairs of structures that depend on the axes are means over ten random rotations, with Student's 95% interval
-(fits.py). For the others the counts in all rotations must be equal. The default form takes three minutes on 2 cores.
+(fits.py). For the others the counts in all rotations must be equal; events are then those of the first four steps, and pairs
+those of the first frame. The default form takes three minutes on 2 cores.
 """
+
+import functools
 
 import kds
 import kds.reading
@@ -32,7 +35,6 @@ SLABS = {"boxes": 3, "14-DOPs": 7, "26-DOPs": 13}
 STYLES = {"wrapped": ("#2f6ea5", "o"), "layered": ("#8fb8de", "o"), "boxes": ("#b3462f", "s"), "14-DOPs": ("#c98a1b", "p"),
           "26-DOPs": ("#7a5c1e", "h"), "oriented boxes": ("#9aa5b1", "D"), "tight oriented boxes": ("#52606d", "D"),
           "power": ("#3b8a5a", "^"), "dual": ("#1f2933", "v"), "spanner": ("#a23b72", "P")}
-DEPEND_ON_AXES = *SLABS, "spanner"
 REFITTED = "layered", "oriented boxes", "tight oriented boxes"
 
 
@@ -44,11 +46,10 @@ def rotations(count, seed=1):
                      [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]).transpose(2, 0, 1)
 
 
-def axis_counts(frames, measure="events", **options):
-    """Returns the events or certificates of kinetic structures that depend on the axes. The spanner does by its unit alone."""
-    found = {name: counts(kds.run(frames, structures="boxes", directions=k, **options), measure)["boxes"]
-             for name, k in SLABS.items()}
-    return found | counts(kds.run(frames, structures="spanner", **options), measure)
+def slab_counts(frames, measure="events", **options):
+    """Returns the events or certificates of boxes and k-DOPs."""
+    return {name: counts(kds.run(frames, structures="boxes", directions=k, **options), measure)["boxes"]
+            for name, k in SLABS.items()}
 
 
 def counts(run, measure="events"):
@@ -62,18 +63,24 @@ def counts(run, measure="events"):
 
 def other_counts(frames, measure="events", **options):
     """Returns the events or certificates of kinetic structures that do not depend on the axes."""
-    return counts(kds.run(frames, structures=["wrapped", "power", "dual"], **options), measure)
+    spanner = kds.run(frames, structures="spanner", **options)
+    return counts(kds.run(frames, structures=["wrapped", "power", "dual"], **options), measure) | counts(spanner, measure)
 
 
-def axis_searches(tree, positions, radius):
-    """Returns family, compared pairs and pairs that meet of structures that depend on the axes; the spanner has no family."""
-    found = {name: search(tree, Slabs(tree, positions, radius, k), positions, radius) for name, k in SLABS.items()}
-    elements = kds.run(positions[None].repeat(2, axis=0), radius=radius, structures="spanner").spanner.elements(0)
-    return found | {"spanner": (None, *search_spanner(elements, positions, radius))}
+@functools.cache
+def spanner_elements(positions, beads):
+    """Returns the edges and centres of the spanner at one frame, whose positions are given as bytes. Radii do not enter."""
+    frame = np.frombuffer(positions).reshape(1, beads, 3)
+    return kds.run(frame.repeat(2, axis=0), radius=1, structures="spanner").spanner.elements(0)
+
+
+def slab_searches(tree, positions, radius):
+    """Returns family, compared pairs and pairs that meet of boxes and k-DOPs."""
+    return {name: search(tree, Slabs(tree, positions, radius, k), positions, radius) for name, k in SLABS.items()}
 
 
 def other_searches(tree, positions, radius):
-    """Returns the same of structures that do not depend on the axes; diagrams have no family."""
+    """Returns the same of structures that do not depend on the axes; diagrams and the spanner have no family."""
     trees = {"wrapped": Spheres(kds.wrapped_hierarchy, positions, radius),
              "layered": Spheres(kds.layered_hierarchy, positions, radius),
              "oriented boxes": OrientedBoxes(tree, positions, radius),
@@ -82,36 +89,38 @@ def other_searches(tree, positions, radius):
     simplices = kds.run(positions[None].repeat(2, axis=0), radius=radius, structures="dual").dual.elements(0)
     edges = {"power": kds.power_diagram(positions, radius)[0],
              "dual": simplices[(simplices[:, 1] >= 0) & (simplices[:, 2] < 0), :2]}
-    return found | {name: (None, *search_along(pairs, positions, radius)) for name, pairs in edges.items()}
+    spanner = search_spanner(spanner_elements(positions.tobytes(), len(positions)), positions, radius)
+    return found | {name: (None, *search_along(pairs, positions, radius)) for name, pairs in edges.items()} | {
+        "spanner": (None, *spanner)}
 
 
 class Trajectory:
     """The rows of one trajectory."""
 
     def __init__(self, frames, spacing, radii, turns, at):
-        self.frames, self.turns, self.at = np.ascontiguousarray(frames), turns, at
+        self.frames, self.at = np.ascontiguousarray(frames), at
         self.tree = Tree(frames.shape[1])
         self.times = spacing * np.arange(len(frames))
         self.rows, self.same_pairs, self.same_turned, self.same_events = [], True, True, True
         self.turned = [np.ascontiguousarray(self.frames @ turn.T) for turn in turns]
-        turned_counts = [axis_counts(one, radius=1) for one in self.turned]
-        certificates = axis_counts(self.frames[:3], "certificates", radius=1, kernel="exact")
-        by_axes = axis_counts(self.frames, radius=1)
-        before = None
+        turned_counts = [slab_counts(one, radius=1) for one in self.turned]
+        certificates = slab_counts(self.frames[:3], "certificates", radius=1, kernel="exact")
+        events = slab_counts(self.frames, radius=1) | other_counts(self.frames, radius=radii[0])
         for radius in radii:
-            events = other_counts(self.frames, radius=radius)
-            fixed = {name: events[name] for name in events if name != "dual"}
-            self.same_events &= before in (None, fixed)
-            before = fixed
+            if radius != radii[0]:
+                again = counts(kds.run(self.frames, radius=radius, structures=["wrapped", "power", "dual"]))
+                self.same_events &= all(again[name] == events[name] for name in ("wrapped", "power"))
+                events |= again
             most = certificates | other_counts(self.frames[:3], "certificates", radius=radius, kernel="exact")
-            self.add(radius, by_axes | events, turned_counts, most)
-        self.same_turned &= all(other_counts(one, radius=radius) == events for one in self.turned)
+            self.add(radius, events, turned_counts, most)
+        few = other_counts(self.frames[:5], radius=radius)
+        self.same_turned &= all(other_counts(one[:5], radius=radius) == few for one in self.turned)
 
-    def searches(self, frames, radius):
+    def searches(self, frames, radius, kinds):
         """Returns family and compared pairs of each structure, means over frames. Checks that the pairs that meet are right."""
         found = []
-        for positions in frames[self.at]:
-            one = axis_searches(self.tree, positions, radius) | other_searches(self.tree, positions, radius)
+        for positions in frames:
+            one = {name: result for kind in kinds for name, result in kind(self.tree, positions, radius).items()}
             meeting = kds.colliding_pairs(positions, radius)
             self.same_pairs &= all(np.array_equal(pairs, meeting) for _, _, pairs in one.values())
             found.append({name: (family, compared) for name, (family, compared, _) in one.items()})
@@ -119,23 +128,21 @@ class Trajectory:
                 for name in found[0]}
 
     def add(self, radius, events, turned_counts, certificates):
-        found = self.searches(self.frames, radius)
-        turned = [self.searches(one, radius) for one in self.turned]
+        found = self.searches(self.frames[self.at], radius, (slab_searches, other_searches))
+        first = self.searches(self.frames[:1], radius, (other_searches,))
+        self.same_turned &= all(self.searches(one[:1], radius, (other_searches,)) == first for one in self.turned)
+        turned = [self.searches(one[self.at], radius, (slab_searches,)) for one in self.turned]
         beads, time = self.tree.beads, float(self.times[-1])
         for name, (family, compared) in found.items():
             refits = name in REFITTED
             total = (beads - 1) * (len(self.frames) - 1) if refits else events[name]
             row = {"structure": name, "beads": beads, "radius": radius, "events": total, "events_per_ps": total / time,
                    "certificates": certificates.get(name), "family": family, "pairs": compared}
-            if name in DEPEND_ON_AXES:
-                columns = {"events_per_ps": [one[name] / time for one in turned_counts],
-                           "family": [one[name][0] for one in turned], "pairs": [one[name][1] for one in turned]}
-                for column, values in columns.items():
-                    if None in values:
-                        continue
+            if name in SLABS:
+                for column, values in (("events_per_ps", [one[name] / time for one in turned_counts]),
+                                       ("family", [one[name][0] for one in turned]),
+                                       ("pairs", [one[name][1] for one in turned])):
                     row[column + "_turned"], row[column + "_lower"], row[column + "_upper"] = mean_interval(values)
-            else:
-                self.same_turned &= all(one[name] == found[name] for one in turned)
             self.rows.append(row)
 
     def layered_changes(self):
@@ -204,10 +211,10 @@ def main():
                 [[row["row"], *(mean(row, column) for column in columns), mean(row, "events_per_ps") / row["beads"],
                   row["certificates"], mean(row, "pairs") / row["beads"]] for row in report.results["rows"]])
     report.show(["in random rotations", *(f"{column} {end}" for column in columns for end in ("from", "to"))],
-                [[row["row"], *(row.get(f"{column}_{end}") for column in columns for end in ("lower", "upper"))]
-                 for row in report.results["rows"] if row["structure"] in DEPEND_ON_AXES])
+                [[row["row"], *(row[f"{column}_{end}"] for column in columns for end in ("lower", "upper"))]
+                 for row in report.results["rows"] if row["structure"] in SLABS])
     for claim, words in (("same_pairs", "All searches find the pairs that kds.colliding_pairs finds"),
-                         ("same_turned", "Counts of all but boxes, k-DOPs and the spanner are equal in all rotations"),
+                         ("same_turned", "Counts of all structures but boxes and k-DOPs are equal in all rotations"),
                          ("same_events", "Events of wrapped and power do not depend on the radius")):
         report.claim(claim, words, all(getattr(one, claim) for one in found.values()), f"{len(found)} trajectories")
     changes = {name: one.layered_changes() for name, one in found.items()}
