@@ -116,7 +116,7 @@ struct ImageContact {
 /// Compares the distance of two centres with a length: |c_i - c_j|^2 - length^2 is positive while they are
 /// further apart.
 struct DistanceBeyond {
-  static constexpr CertificateType type{21, "distance_beyond"};
+  static constexpr CertificateType type{25, "distance_beyond"};
   struct Constants {
     Constant<1> length;
   };

@@ -122,10 +122,11 @@ class Judge final : public KineticStructure {
   void apply(const Change&) override {}
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override {
     if (time == Dyadic(0.0) || time == Dyadic(1.0) || audits_++ % every_ != 0) return std::nullopt;
-    return look_(balls_(Dyadic((time.numerator() << 100U) + 1, time.exponent() + 100)));
+    return look_(balls_(Dyadic((time.numerator() << later) + 1, time.exponent() + later)));
   }
 
  private:
+  static constexpr unsigned later = 256;  // bits; events of one scene are 2^-199 apart
   std::uint64_t every_, audits_ = 0;
   Look look_;
   std::function<ExactBalls(const Dyadic&)> balls_;

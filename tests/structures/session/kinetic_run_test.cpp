@@ -229,6 +229,19 @@ TEST(KineticRun, GoesBackByReplayWithItsEdits) {
   EXPECT_EQ(run.simulator().fingerprint(), plain.simulator().fingerprint());
 }
 
+// Certificate types of all structures have different numbers.
+TEST(KineticRun, HoldsAllStructuresAtOnce) {
+  for (const int dimension : {2, 3}) {
+    const Scene scene = scene_of(dimension, frames_of(dimension, 3));
+    KineticRunOptions all{.structures = {}, .audits = AuditMode::events};
+    for (const StructureSpec& spec : structure_registry().all())
+      if (!spec.refusal(scene)) all.structures.push_back(spec.name);
+    EXPECT_GT(all.structures.size(), 9U);
+    KineticRun run(scene, all);
+    EXPECT_NO_THROW(run.finish());
+  }
+}
+
 TEST(KineticRun, RefusesTimesThatItCannotGoTo) {
   const Scene scene = scene_of(2, frames_of(2, 3));
   KineticRun run(scene, four);
