@@ -270,6 +270,18 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
   const bool repeats = lone_frame != nullptr && survey.frame_count == 1;
   if (survey.frame_count < 2 && !repeats && !files->early_end().empty())
     throw InputError(fmt::format("{}; a run needs at least two frames", files->early_end()));
+  if (survey.velocities && survey.error_with_velocities > 1) {
+    const std::string worse = fmt::format(
+        "curves through every other frame miss those between by {:.3g} times as much with the "
+        "velocities of the file",
+        survey.error_with_velocities);
+    if (input.velocities) {
+      warn(fmt::format("{}: {}", file_names(input), worse));
+    } else {
+      survey.velocities = false;
+      survey.lacks_velocities = worse;
+    }
+  }
   if (opened.reading.velocities && !survey.velocities && !repeats) {
     if (input.velocities)
       throw InputError(

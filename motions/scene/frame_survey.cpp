@@ -141,21 +141,37 @@ void CellSurvey::add(const FrameRead& frame) {
 void VelocitySurvey::add(const FrameRead& frame) {
   const bool has_velocities = frame.velocities.cols() > 0;
   any_ = any_ || has_velocities;
-  const auto &time = frame.stamp.picoseconds, &time_before = last_.stamp.picoseconds;
-  const bool is_later = frames_ == 0 || (time && time_before && *time > *time_before);
+  const std::optional<double>& time = frame.stamp.picoseconds;
+  const bool is_later = frames_ == 0 || (time && last_time_ && *time > *last_time_);
   if (lacks_.empty() && !(has_velocities && time && is_later))
     lacks_ = fmt::format("frame {} {}", frame.stamp.number,
                          !has_velocities ? "has no velocities"
                          : !time         ? "has no time"
                                          : "is not later than the frame before");
-  if (has_velocities && last_.velocities.cols() > 0 && lacks_.empty()) {
-    const Eigen::Matrix3Xd move = frame.positions - last_.positions;
-    moved_ += move.squaredNorm();
-    left_ += (move - (*time - *time_before) / 2 * (frame.velocities + last_.velocities)).squaredNorm();
-  }
-  if (has_velocities) last_ = frame;
-  last_.stamp = frame.stamp;
+  last_time_ = time;
   ++frames_;
+  if (!lacks_.empty()) return recent_.clear();
+  recent_.push_back(frame);
+  constexpr std::size_t window = 7;
+  if (recent_.size() < window) return;
+  const auto at = [&](std::size_t k) { return *recent_[k].stamp.picoseconds; };
+  const auto velocity = [&](std::size_t k) -> Eigen::Matrix3Xd {
+    return (recent_[k + 2].positions - recent_[k - 2].positions) / (at(k + 2) - at(k - 2));
+  };
+  const double step = at(4) - at(2), u = (at(3) - at(2)) / step;
+  const auto error = [&](const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& after) {
+    const Eigen::Matrix3Xd move = recent_[4].positions - recent_[2].positions;
+    return (recent_[2].positions - recent_[3].positions + u * u * (3 - 2 * u) * move +
+            step * u * (1 - u) * ((1 - u) * before - u * after))
+        .squaredNorm();
+  };
+  with_velocities_ += error(recent_[2].velocities, recent_[4].velocities);
+  with_differences_ += error(velocity(2), velocity(4));
+  recent_.pop_front();
+}
+
+double VelocitySurvey::relative_error() const {
+  return with_differences_ > 0 ? std::sqrt(with_velocities_ / with_differences_) : 1;
 }
 
 bool CellSurvey::is_periodic(const std::optional<AxisPlane>& plane) const {
@@ -225,6 +241,7 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   if (!survey.periodic) survey.lacks_images = cells.why_not();
   survey.velocities = velocities.all();
   if (!survey.velocities) survey.lacks_velocities = velocities.why_not();
+  survey.error_with_velocities = velocities.relative_error();
   if (!doubt.empty()) warn(doubt);
   if (warn)
     for (const std::string& line : frames.warnings()) warn(line);
@@ -235,12 +252,6 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
         "vector ({:.4g}), so the paths of images are a guess ({})",
         necklaces.front().file, jumps.first_frame, jumps.change, jumps.half_cell,
         counted(jumps.count, "such change")));
-  constexpr double least_explained = 0.1;
-  if (warn && survey.velocities && velocities.explained() < least_explained)
-    warn(
-        fmt::format("{}: velocities explain {:.0f}% of the moves between frames: the frames are too far "
-                    "apart for them, or times or units are wrong ({} differences)",
-                    necklaces.front().file, 100 * std::max(0.0, velocities.explained()), "--velocities"_arg));
   frames.seek(0);
   return survey;
 }

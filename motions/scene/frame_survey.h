@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -107,17 +108,18 @@ class VelocitySurvey {
   [[nodiscard]] bool all() const { return frames_ > 1 && lacks_.empty(); }
   /// Returns why not, or an empty text if no frame has velocities.
   [[nodiscard]] std::string why_not() const { return any_ ? lacks_ : ""; }
-  /// Returns the share of the beads' moves from frame to frame that the velocities explain: 1 minus the mean
-  /// square of what is left of a move, over that of the moves, if the mean velocity of both frames is taken
-  /// off.
-  [[nodiscard]] double explained() const { return 1 - left_ / moved_; }
+  /// Returns by how much Hermite curves through every other frame miss the frames between them with the
+  /// velocities of the frames, relative to central differences (root mean square). Returns 1 for fewer than
+  /// seven frames.
+  [[nodiscard]] double relative_error() const;
 
  private:
-  FrameRead last_;
+  std::deque<FrameRead> recent_;  // the last seven frames, while none is unfit
+  std::optional<double> last_time_;
   std::size_t frames_ = 0;
   bool any_ = false;
-  std::string lacks_;  // about the first frame that is unfit
-  double moved_ = 0, left_ = 0;
+  std::string lacks_;                                  // about the first frame that is unfit
+  double with_velocities_ = 0, with_differences_ = 0;  // sums of squares of errors
 };
 
 struct FrameSurvey {
@@ -132,6 +134,7 @@ struct FrameSurvey {
   std::string lacks_images = {};      ///< why beads have no images, if any frame has a cell; for messages
   bool velocities = false;            ///< VelocitySurvey::all
   std::string lacks_velocities = {};  ///< why not, for messages; empty if they are used or not asked for
+  double error_with_velocities = 1;   ///< VelocitySurvey::relative_error
 };
 
 /// Reads all frames and starts again at the first. Passes the source's warnings to `warn`. Throws InputError
