@@ -57,7 +57,8 @@ class Structure:
 
         ``frame`` is a whole number. Unused ids are -1. Elements are bases of nodes (``wrapped``),
         supports of nodes (``boxes``), cells (``power``), simplices (``dual``), pairs (``contacts``,
-        ``closest``), ranks (``sorted``), ends (``box``) or corners (``hull``); docs/python.md lists their ids.
+        ``closest``), ranks (``sorted``), ends (``box``), corners (``hull``) or edges and centres (``spanner``);
+        docs/python.md lists their ids.
         """
         number("frame", frame)  # None is no frame here
         time = self._run._clock.time(frame)
@@ -66,7 +67,13 @@ class Structure:
         return self._ask(self._run._core.elements, self.name, int(time))[0]
 
     def edges(self, frame=None):
-        """Returns the pairs of beads whose power cells share a facet, an array (m, 2), ascending."""
+        """Returns the edges of ``power`` (pairs of beads whose cells share a facet) or ``spanner``, an array (m, 2), ascending.
+
+        The frame of a spanner is a whole number.
+        """
+        if self.name == "spanner":
+            rows = self.elements(frame)
+            return rows[rows[:, 1] >= 0, :2]
         self._only("power", "edges")
         return self._ask(self._run._core.edges, self._run._clock.time(frame))
 

@@ -61,7 +61,8 @@ class SpannerInRun final : public RunningStructure {
       edits.push_back({1, true, replay_element({ids[0], ids[1], ids[2]})});
     return true;
   }
-  /// The time of the Delaunay triangulation, the sparse graph with short paths that libraries offer.
+  /// The time of the Delaunay triangulation, another graph over the same points, without a
+  /// stated stretch.
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     const std::vector<double> no_weights(scene_.bead_count(), 0);
     return seconds_per_call<WallClock>(triangulation_by_cgal<D>(scene_.centers(frame), no_weights));
@@ -76,7 +77,7 @@ class SpannerInRun final : public RunningStructure {
 
 void add_spanner_structures(StructureRegistry& registry) {
   registry.add({.name = "spanner",
-                .about = "sparse graph of the centres with short paths, on a hierarchy of centres",
+                .about = "graph of the beads with short paths, on a hierarchy of discrete centres",
                 .net_changes = "edges, and centres with another parent or level",
                 .order = 18,
                 .refusal = [](const Scene& scene) -> std::optional<std::string> {

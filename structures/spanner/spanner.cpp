@@ -62,10 +62,10 @@ std::vector<typename Spanner<D>::Centre> Spanner<D>::centres() const {
 template <int D>
 typename Spanner<D>::Table& Spanner<D>::table(Length length, int level) {
   const auto number = 2 * static_cast<std::size_t>(level) + (length == Length::scale ? 1 : 0);
-  if (number >= tables_.size()) tables_.resize(number + 1);
-  if (!tables_[number]) {
-    tables_[number] =
-        std::make_unique<Table>(simulator(), *this, index(), static_cast<unsigned>(number), motion_);
+  if (number >= tables_.size() || !tables_[number]) {
+    auto made = std::make_unique<Table>(simulator(), *this, index(), static_cast<unsigned>(number), motion_);
+    tables_.resize(std::max(tables_.size(), number + 1));
+    tables_[number] = std::move(made);
     set_constants(number);
   }
   return *tables_[number];
@@ -322,7 +322,7 @@ void Spanner<D>::find_parent(BeadId bead, BeadId near) {
   for (int level = before + 1;; ++level) {
     near = ancestor(near, level);
     for (const BeadId centre : joined_with(near, level)) {
-      if (centre == bead || centre == leaving_ || sign(Length::scale, level, bead, centre) > 0) continue;
+      if (centre == leaving_ || sign(Length::scale, level, bead, centre) > 0) continue;
       unlink(bead);
       link(bead, centre, level - 1);
       record_centre(level - 1 > before ? rise : adopt, bead);
@@ -450,6 +450,10 @@ void Spanner<D>::build() {
   pairs_.clear();
   nodes_.assign(bead_count(), {});
   named_.assign(bead_count(), 0);
+  before_.clear();
+  broken_.clear();
+  leaving_ = no_bead;
+  editing_ = false;
   building_ = knows_pairs_ = true;
   for (std::size_t k = 0; k < tables_.size(); ++k)
     if (tables_[k]) set_constants(k);
@@ -502,23 +506,27 @@ void Spanner<D>::fail(unsigned table_number, std::uint32_t slot) {
 template <int D>
 void Spanner<D>::apply(const Change& change) {
   const BeadId bead = change.ids[0], other = change.ids[1];
-  knows_pairs_ = false;
+  if (knows_pairs_) {  // from now on, only edges are known
+    for (Node& node : nodes_) node.pairs.clear();
+    std::erase_if(pairs_, [](const auto& known) { return !known.second.is_joined(); });
+    knows_pairs_ = false;
+  }
   if (change.kind == inserts || change.kind >= erases) static_cast<void>(apply_edit(change));
   if (bead >= bead_count())
     throw std::invalid_argument("a change of a spanner names a bead that does not exist");
   if (change.kind == join || change.kind == part || change.kind == rescale) {
     if (!(bead < other && other < bead_count()))
       throw std::invalid_argument("an edge of a spanner needs two beads in ascending order");
-    const Pair* known = find(bead, other);
-    const bool is_joined = known != nullptr && known->is_joined();
+    const bool is_joined = find(bead, other) != nullptr;
     if (is_joined == (change.kind == join))
       throw std::invalid_argument(fmt::format("beads {} and {} are {}an edge of the spanner", bead, other,
                                               is_joined ? "already " : "not "));
-    if (change.kind == rescale) return;
-    Pair& pair = pairs_[key_of(bead, other)];
-    pair.beads = {bead, other};
-    pair.lowest = change.kind == join ? pair.common : pair.common + 1;
+    if (change.kind == join) pairs_[key_of(bead, other)].beads = {bead, other};
+    if (change.kind == part) pairs_.erase(key_of(bead, other));
   } else if (change.kind <= inserts) {
+    const BeadId level = change.ids[2];
+    if (other == no_bead ? level != root_level : other >= bead_count() || level >= root_level)
+      throw std::invalid_argument("a bead of a spanner has no such parent or level");
     nodes_[bead].parent = other;
     nodes_[bead].top = static_cast<int>(change.ids[2]);
   }
@@ -528,6 +536,7 @@ void Spanner<D>::apply(const Change& change) {
 
 template <int D>
 void Spanner<D>::edit(std::uint8_t kind, BeadId bead) {
+  begin_edit();
   present().set_absent(bead, kind == erases);
   if (kind == inserts) {
     put(bead);
@@ -537,10 +546,18 @@ void Spanner<D>::edit(std::uint8_t kind, BeadId bead) {
     record(kind, {bead});
   }
   resolve();
+  editing_ = false;
+}
+
+template <int D>
+void Spanner<D>::begin_edit() {
+  if (editing_) throw std::logic_error("spanner: an exception ended an edit: nothing follows");
+  editing_ = true;
 }
 
 template <int D>
 void Spanner<D>::release(std::span<const BeadId> beads) {
+  begin_edit();
   for (const BeadId bead : beads)
     if (!is_absent(bead)) take_out(bead);
 }
@@ -553,6 +570,7 @@ void Spanner<D>::follow(std::span<const BeadId> beads) {
     record_centre(rise, bead);
   }
   resolve();
+  editing_ = false;
 }
 
 template <int D>

@@ -1,31 +1,42 @@
 #pragma once
-// Kinetic spanner of the beads' centres: a graph whose shortest paths are at most `stretch` times as long as
-// straight lines, while the beads move. Built on a hierarchy of centres. After Gao, Guibas, Nguyen,
+// Kinetic spanner of the beads: a graph whose shortest paths are at most `stretch` times as long as straight
+// lines, while the beads move. Built on a hierarchy of discrete centres. After Gao, Guibas, Nguyen,
 // Deformable spanners and applications (2004).
 //
 // Level i has a scale u 2^i. All beads are centres of level 0. Centres of level i > 0 are centres of level
-// i - 1 that are at least the scale apart, and each centre of level i - 1 has a parent among them within the
-// scale (itself if it is one). The root is a centre of all levels. Two centres of a level are joined while
-// they are at most c u 2^i apart, with c = 4 + 16 / (stretch - 1). The spanner's edges are the pairs that are
-// joined at some level.
+// i - 1 that are at least the scale apart. Each centre of level i - 1 has a parent among them within the
+// scale; a centre of level i is its own parent. The root is a centre of all levels. Two centres of a level
+// are joined while they are nearer than c u 2^i, with c = 4 + 16 / (stretch - 1), and not while they are
+// farther; at equality either. The spanner's edges are the pairs that are joined at some level.
 //
 // Proof of the stretch: let p and q be beads, and let i be the lowest level at which their ancestors are
 // equal or joined. A bead's ancestor at level i is within 2 u 2^i of it, on a path of edges, because c > 2.
-// So the path over the ancestors is at most 8 u 2^i longer than |pq|. If i > 0, the ancestors at level i - 1
-// are more than c u 2^(i-1) apart, so |pq| > (c - 4) u 2^(i-1).
+// So the path over the ancestors is at most 8 u 2^i longer than |pq|. If i = 0, p and q are an edge.
+// Otherwise the ancestors at level i - 1 are not joined, so they are at least c u 2^(i-1) apart, and |pq| >=
+// (c - 4) u 2^(i-1). So the path is at most 1 + 16 / (c - 4) = stretch times as long as |pq|.
 //
-// Four conditions on distances certify the spanner: a parent covers its child, centres of a level stay apart,
-// joined centres stay near, and cousins (centres that are not joined, but whose parents are equal or joined)
-// stay far. Centres whose parents are not joined are far by the triangle inequality, because c > 4. A pair is
-// joined at all levels from its lowest one on at which both are centres, so each pair has at most three
-// certificates.
+// Four conditions on distances certify the spanner (in the source: parent-child, separation, edge and
+// potential-edge certificates): a parent covers its child, centres of a level stay apart, joined centres stay
+// near, and cousins (centres that are not joined, but whose parents are equal or joined) stay far. Centres
+// whose parents are not joined are far by the triangle inequality, because c > 4. A pair is joined at all
+// levels from its lowest one on at which both are centres, so a pair has at most three certificates, and a
+// child and its parent a fourth.
 //
 // If a parent loses a child, the child takes another parent; if none covers it, it becomes a centre of the
 // next level. If two centres get too near, one of them leaves the level, and its children there take other
-// parents. The hierarchy depends on its past, the definition holds at all times.
+// parents. A centre that covers a bead is within three scales of a parent that the bead has lost, so the two
+// are joined, and the search along edges finds it. Each repair makes its conditions hold just after the
+// present time and breaks no other, so repairs end. The hierarchy depends on earlier events, so equal
+// positions may have different spanners. Each one meets the definition.
 //
-// u is 2^-30 of the extent at the first frame, rounded down to a power of two. All beads within c u are
-// joined, so the cost is quadratic in the number of beads that are together.
+// u is 2^-30 of the extent at the first frame, rounded down to a power of two, but at least 2^-1000, and 1 if
+// all beads are together then. The scale does not follow the extent later. All beads within c u are joined,
+// so the cost is quadratic in the number of beads that are together.
+//
+// A centre is joined with up to (2c + 1)^3 centres of its level in space, 15,625 at a stretch of 3, where c
+// is
+// 12. So spanners of fewer than some thousand beads have a large share of all pairs as edges. Memory grows
+// with the tracked pairs, and each step searches all certificates anew.
 //
 // All results are exact. Radii do not enter.
 
@@ -52,15 +63,17 @@ namespace kds {
 template <int Dimension>
 class Spanner final : public EditableBase {
  public:
-  /// Kinds of events. Ids of `join` and `part`: the beads of an edge, ascending. Ids of `rise`, `fall` and
-  /// `adopt`: the bead, its parent, and the highest level of which it is now a centre: a higher one, a lower
-  /// one, or the level before with another parent. The root has no parent, and `root_level`. Ids of
-  /// `rescale`: the beads of an edge, and the lowest level at which they are now joined. Ids of `inserts`:
-  /// those of `rise`.
+  /// Kinds of events and their ids:
+  ///
+  ///   join, part   the beads of an edge, ascending
+  ///   rise, fall   the bead, its parent, and the highest level of which it is now a centre; the root has
+  ///                no_bead and root_level
+  ///   adopt        the same, of a bead that has another parent on the same level
+  ///   rescale      the beads of an edge, and the lowest level at which they are now joined
+  ///   inserts      the ids of `rise`
   enum Kind : std::uint8_t { join, part, rise, fall, adopt, rescale, inserts, erases, changes };
 
   static constexpr BeadId root_level = 1U << 20U;
-  static constexpr double default_stretch = 3;
 
   struct Centre {
     BeadId bead, parent, level;  ///< the highest level; no_bead and root_level for the root
@@ -68,7 +81,7 @@ class Spanner final : public EditableBase {
   };
 
   /// Throws std::invalid_argument unless stretch > 1.
-  Spanner(Simulator& simulator, const MotionRef<Dimension>& motion, double stretch = default_stretch);
+  Spanner(Simulator& simulator, const MotionRef<Dimension>& motion, double stretch);
 
   /// Returns the edges, ascending.
   [[nodiscard]] std::vector<BeadPair> edges() const;
@@ -146,7 +159,7 @@ class Spanner final : public EditableBase {
   /// built.
   [[nodiscard]] bool hold(Guard& guard, Length length, int level, std::array<BeadId, 2> beads, int wanted);
   void drop(Guard& guard, const std::array<BeadId, 2>& beads);
-  /// Same for a certificate that has failed.
+  /// Forgets a certificate that has failed, which its table has removed.
   void forget(Guard& guard, const std::array<BeadId, 2>& beads);
 
   /// Returns null if the pair is not tracked.
@@ -184,6 +197,8 @@ class Spanner final : public EditableBase {
   void put(BeadId bead);
   void take_out(BeadId bead);
   void resolve();
+  /// Throws std::logic_error if an exception has ended an earlier edit.
+  void begin_edit();
 
   void edit(std::uint8_t kind, BeadId bead) override;
   void release(std::span<const BeadId> beads) override;
@@ -200,6 +215,7 @@ class Spanner final : public EditableBase {
       broken_;                    // beads of certificates that do not hold and are not yet repaired
   std::optional<Failed> failed_;  // the event that is being handled
   BeadId leaving_ = no_bead;      // a centre whose children take other parents
+  bool editing_ = false;          // stays true if an exception ended an edit
   bool building_ = false;
   bool knows_pairs_ = false;          // not after changes from a log, which names edges only
   std::vector<std::uint32_t> named_;  // the number of certificates on each bead

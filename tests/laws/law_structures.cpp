@@ -46,9 +46,10 @@ std::optional<std::string> fault_of_contacts(const Judged& judged) {
   return differs(pairs, contacts_of(judged.balls, judged.present, asked));
 }
 
+template <int Stretch>
 std::optional<std::string> fault_of_spanner(const Judged& judged) {
   const auto fault_in = [&](const auto& spanner) {
-    return not_a_spanner(spanner, judged.present, judged.balls.one,
+    return not_a_spanner(spanner, judged.present, Stretch, judged.balls.one,
                          [&](BeadId a, BeadId b) { return judged.balls.square(a, b); });
   };
   if (const auto* plane = dynamic_cast<const Spanner<2>*>(&kinetic(judged.structure)))
@@ -141,8 +142,8 @@ const std::vector<LawStructure>& law_structures() {
       {"box", {}, Edits::beads, true, fault_of_box},
       {"hull", {}, Edits::beads, true, fault_of_hull},
       {"closest", {}, Edits::beads, true, fault_of_closest},
-      {"spanner", {}, Edits::beads, false, fault_of_spanner, 8},
-      {"spanner", {.stretch = 10}, Edits::beads, false, fault_of_spanner, 8},
+      {"spanner", {}, Edits::beads, false, fault_of_spanner<3>, 8},
+      {"spanner", {.stretch = 10}, Edits::beads, false, fault_of_spanner<10>, 8},
       {"wrapped", {}, Edits::courses, false, fault_of_wrapped},
       {"wrapped", {.between = Between::chord}, Edits::none},
       {"layered", {}, Edits::none},

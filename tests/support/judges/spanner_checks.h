@@ -16,10 +16,11 @@
 namespace kds::test {
 
 /// Explains why a spanner does not meet its definition at one time, or returns nothing. `square(a, b)` is the
-/// square of a distance, with lengths multiplied by `one`. Distances that equal a limit pass either way.
+/// square of a distance, with lengths multiplied by `one`. `stretch` is what was asked for. Distances that
+/// equal a limit pass either way.
 template <class Spanner, class Square>
 std::optional<std::string> not_a_spanner(const Spanner& spanner, const std::vector<BeadId>& present,
-                                         const second::Integer& one, Square square) {
+                                         double stretch, const second::Integer& one, Square square) {
   const auto value = [](double x) { return second::value(std::vector{x}, 0); };
   const auto limit = [&](double factor, BeadId level) {
     const second::Rational length =
@@ -72,7 +73,6 @@ std::optional<std::string> not_a_spanner(const Spanner& spanner, const std::vect
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b)
         shortest[a * n + b] = std::min(shortest[a * n + b], shortest[a * n + via] + shortest[via * n + b]);
-  const double stretch = 1 + 16 / (spanner.reach() - 4);
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = a + 1; b < n; ++b) {
       const double d = distance(present[a], present[b]);

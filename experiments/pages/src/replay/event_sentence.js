@@ -88,8 +88,10 @@ export function eventSentence({ structure, kind, roles, changes, nodes, names, d
     },
     spanner: {
       join: () => [enters(ids.first[0]), " and ", enters(ids.second[0]), " become an edge of the spanner"],
-      part: () => [leaves(ids.first[0]), " and ", leaves(ids.second[0]), " are an edge of the spanner no more"],
-      rise: () => [enters(ids.bead[0]), ` becomes a centre of level ${ids.level[0]}, under `, plain(ids.parent[0])],
+      part: () => [leaves(ids.first[0]), " and ", leaves(ids.second[0]), " are no longer an edge of the spanner"],
+      rise: () => ids.parent[0] === noBead
+        ? [enters(ids.bead[0]), " becomes the root of the spanner"]
+        : [enters(ids.bead[0]), ` becomes a centre of level ${ids.level[0]}, under `, plain(ids.parent[0])],
       fall: () => [leaves(ids.bead[0]), ` falls to level ${ids.level[0]}, under `, plain(ids.parent[0])],
       adopt: () => [plain(ids.bead[0]), " gets another parent, ", enters(ids.parent[0])],
     },

@@ -17,7 +17,7 @@ const structures = {
   box: "Enclosing box: the smallest box around all beads.",
   hull: "Convex hull of the beads in the plane.",
   closest: "Closest pair: the two beads with the least distance.",
-  spanner: "Spanner: a sparse graph of the beads with short paths, on a hierarchy of centres.",
+  spanner: "Spanner: a graph of the beads with short paths, on a hierarchy of discrete centres.",
 };
 
 const kinds = {
@@ -79,7 +79,7 @@ const kinds = {
   },
   closest: { replace: "Another pair becomes the closest.", overtake: "A pair overtakes another within the tournament." },
   spanner: {
-    join: "An edge of the spanner begins: both beads are near for a level of which they are centres.",
+    join: "An edge of the spanner begins: two centres of a level come within its reach.",
     part: "An edge of the spanner ends.",
     rise: "A bead becomes a centre of a higher level, because no other centre covers it.",
     fall: "A bead is no longer a centre of its highest level, because another centre is too near.",
