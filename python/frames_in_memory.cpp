@@ -130,7 +130,8 @@ class AtomsInMemory final : public AtomFrames {
     if (!content_->hashes[k].compare_exchange_strong(before, hash) && before != hash) content_->changed = k;
     if (const std::size_t changed = content_->changed; changed < content_->frame_count)
       throw InputError(fmt::format(
-          "{}: frame {}: the input has changed since it was read first; expected the same positions, such as "
+          "{}: frame {}: the input has changed since it was read first; expected the same positions and "
+          "velocities, such as "
           "those of a copy",
           content_->beads.label, content_->beads.first_frame + content_->beads.frame_step * changed));
     const auto take = [&](const MemoryNumbers& numbers, Eigen::Matrix3Xd& to) {
@@ -163,7 +164,7 @@ class AtomsInMemory final : public AtomFrames {
     }
     const py::object velocities = read[3];
     if (!velocities.is_none() && !velocities.attr("shape").equal(positions.attr("shape")))
-      throw InputError(fmt::format("{}: its velocities have another shape than its positions", label));
+      throw InputError(fmt::format("{}: velocities have another shape than positions", label));
     copy(numbers_of(positions),
          velocities.is_none() ? MemoryNumbers() : numbers_of(velocities.cast<py::array>()), k, 0, atoms,
          frame);

@@ -118,35 +118,34 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const In
   const Warn once = [&](const std::string& line) {
     if (std::ranges::count(said, line) == 0) warn(said.emplace_back(line));
   };
-  std::optional<VelocitySource> velocities;
   for (const FrameMotion motion : options.motions) {
     const RunOptions run = run_of(options, input, motion);
     const Scene scene = load_scene(run, once);
-    if (scene.velocities()) velocities = scene.velocities();
     try {
       static_cast<void>(open_run(run, scene, AuditMode::none));
     } catch (const InputError& error) {
       if (options.inputs.size() == 1) throw;
       throw InputError(fmt::format("{}: {}", input_name(run, 0), error.what()));
     }
-    if (motion != options.motions.front()) continue;
-    const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
-    found = {input_name(run, 0),
-             names.name(input),
-             names.short_name(input),
-             scene.bead_count(),
-             scene.frame_count(),
-             scene.dimension(),
-             scene.is_truncated(),
-             *least,
-             *most};
-    const auto from = scene.stamp(0).picoseconds, to = scene.stamp(scene.frame_count() - 1).picoseconds;
-    if (from && to && scene.step_count() > 0)
-      found.frame_picoseconds = (*to - *from) / static_cast<double>(scene.step_count());
-    for (BeadId bead = 0; bead < scene.bead_count(); ++bead)
-      found.bead_names.push_back(scene.bead_name(bead));
+    if (motion == options.motions.front()) {
+      const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
+      found = {input_name(run, 0),
+               names.name(input),
+               names.short_name(input),
+               scene.bead_count(),
+               scene.frame_count(),
+               scene.dimension(),
+               scene.is_truncated(),
+               *least,
+               *most};
+      const auto from = scene.stamp(0).picoseconds, to = scene.stamp(scene.frame_count() - 1).picoseconds;
+      if (from && to && scene.step_count() > 0)
+        found.frame_picoseconds = (*to - *from) / static_cast<double>(scene.step_count());
+      for (BeadId bead = 0; bead < scene.bead_count(); ++bead)
+        found.bead_names.push_back(scene.bead_name(bead));
+    }
+    if (scene.velocities()) found.velocities = scene.velocities();
   }
-  found.velocities = velocities;
   if (strided(found.frames, options.strides.back()) < 2)
     throw InputError("--strides", fmt::format("{} leaves one of the {} frames of {}; expected two or more",
                                               options.strides.back(), found.frames, found.file));

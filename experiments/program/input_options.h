@@ -31,7 +31,7 @@ struct InputOptions {
   std::vector<std::filesystem::path> topologies = {};
   ReadOptions reading;  ///< --topology, --select, --chain (as given, for all inputs), --frames; --groups
   std::string radius = "auto";
-  std::optional<VelocitySource> velocities = {};  ///< --velocities; none: the file if all frames have them
+  std::optional<VelocitySource> velocities = {};  ///< --velocities; none: the file if they help (FrameSurvey)
   bool periodic = true;  ///< images of beads count where all frames have a cell; false: --no-periodic
   std::optional<std::filesystem::path> obstacle = {};  ///< --obstacle, for the commands that have it
 };

@@ -192,9 +192,6 @@ bool takes_side_chains(const std::vector<NecklaceStream>& files, const Selection
 std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
                                         const std::function<void(const std::string&)>& warn,
                                         std::size_t stride) {
-  if (options.velocities)
-    throw InputError("--velocities",
-                     fmt::format("is of Hermite curves; expected {} hermite", "--motion"_arg));
   std::vector<NecklaceStream> files;
   std::vector<InputAtoms> atoms;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
@@ -259,11 +256,12 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
     if (input.radius == "array" && std::filesystem::exists(path))
       throw InputError("--radius",
                        "array is for positions in memory; expected file:PATH, with a line a bead");
+  if (input.velocities && motion != FrameMotion::hermite)
+    throw InputError("--velocities",
+                     fmt::format("is of Hermite curves; expected {} hermite", "--motion"_arg));
   InputOptions opened = input;
-  if (motion == FrameMotion::hermite) {
-    opened.reading.velocities = input.velocities != VelocitySource::differences;
-    opened.velocities.reset();
-  }
+  opened.reading.velocities =
+      motion == FrameMotion::hermite && input.velocities != VelocitySource::differences;
   std::unique_ptr<FileFrames> files = open_frames(opened, warn);
   FrameSurvey survey = survey_frames(*files, input.radius == "auto", warn);
   survey.periodic = survey.periodic && input.periodic;
@@ -272,17 +270,16 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
     throw InputError(fmt::format("{}; a run needs at least two frames", files->early_end()));
   if (survey.velocities && survey.error_with_velocities > 1) {
     const std::string worse = fmt::format(
-        "curves through every other frame miss those between by {:.3g} times as much with the "
-        "velocities of the file",
+        "with the velocities of the file, curves through every other frame miss the frames in "
+        "between by {:.3g} times the error of differences",
         survey.error_with_velocities);
     if (input.velocities) {
       warn(fmt::format("{}: {}", file_names(input), worse));
     } else {
-      survey.velocities = false;
-      survey.lacks_velocities = worse;
+      survey.leave_velocities(worse);
     }
   }
-  if (opened.reading.velocities && !survey.velocities && !repeats) {
+  if (opened.reading.velocities && !survey.velocities && (!repeats || input.velocities)) {
     if (input.velocities)
       throw InputError(
           "--velocities",

@@ -41,7 +41,8 @@ struct FrameRead {
   Eigen::Matrix3Xd positions;
   std::optional<Cell> cell;
   /// One column per bead or guide, in angstrom per picosecond. Empty if the frame has none, or if none are
-  /// asked for (ReadOptions::velocities). A bead's periodic image has the bead's velocity.
+  /// asked for (ReadOptions::velocities). An image of a bead
+  /// has the bead's velocity, which is exact while the cell stays the same.
   Eigen::Matrix3Xd velocities = {};
   /// Why the cell in the file is not used; empty if the cell is used or the file has none.
   std::string cell_doubt = {};

@@ -42,6 +42,10 @@ class LammpsFrames final : public AtomFrames {
     if (options.velocities) to_angstrom_per_picosecond_ = velocity_unit();
     if (held_.whole == 0) return;
     if (!columns_.note.empty()) notes_.push_back(columns_.note);
+    if (options.velocities && columns_.velocity && !to_angstrom_per_picosecond_)
+      notes_.push_back(
+          fmt::format("velocities are left unread, because their unit is not known ({} real, metal or nano)",
+                      "--units"_arg));
     read_atoms_of_first_frame();
   }
 

@@ -27,9 +27,9 @@ namespace kds {
 /// How beads move between sampled frames.
 enum class FrameMotion {
   linear,
-  /// Cubic Hermite curves. Velocities are those of the frames if all of them have velocities and times.
-  /// Otherwise they are central differences over frames, one-sided at the first and last frame. Either way,
-  /// the motion is continuously differentiable up to rounding.
+  /// Cubic Hermite curves. Velocities are those of the frames, or central differences over frames, one-sided
+  /// at the first and last frame (FrameSurvey::velocities). With velocities of the frames the motion is
+  /// continuously differentiable in time, with differences in numbers of frames, up to rounding.
   hermite,
   /// Linear, with weights such that each sphere moves on a straight line in lifted space (lifted_motion.h).
   lifted,

@@ -55,10 +55,10 @@ bool FileFrames::next(FrameRead& frame) {
   ++next_;
   frame.cell = common_cell();
   frame.positions.resize(3, static_cast<Eigen::Index>(count_beads(necklaces_)));
-  bool has_velocities = false, lacks_velocities = false;  // files that move
+  bool have_velocities = false;  // all files that move
   for (std::size_t f = 0; f < files_.size(); ++f)
-    if (!at_rest_[f]) (present_[f].velocities.cols() > 0 ? has_velocities : lacks_velocities) = true;
-  frame.velocities.setZero(3, has_velocities && !lacks_velocities ? frame.positions.cols() : 0);
+    if (!at_rest_[f] && !(have_velocities = present_[f].velocities.cols() > 0)) break;
+  frame.velocities.setZero(3, have_velocities ? frame.positions.cols() : 0);
   Eigen::Index begin = 0;
   for (std::size_t f = 0; f < files_.size(); ++f) {
     const FrameRead& of_file = present_[f];

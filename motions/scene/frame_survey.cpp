@@ -57,14 +57,14 @@ std::optional<Cell> AxisPlane::laid(const Cell& cell) const {
   return count == 0 ? std::nullopt : std::optional(in_plane);
 }
 
-void PlaneSearch::add(const FrameRead& frame) {
+void PlaneSearch::add(const FrameRead& frame, bool with_velocities) {
   if (!begun_ && frame.positions.cols() > 3)
     for (const auto& axes : {std::array<Eigen::Index, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}})
       left_.push_back({axes, frame.positions(axes[2], 0)});
   begun_ = true;
   std::erase_if(left_, [&](const AxisPlane& plane) {
     return !(frame.positions.row(plane.axes[2]).array() == plane.height).all() ||
-           !(frame.velocities.row(plane.axes[2]).array() == 0).all();
+           (with_velocities && !(frame.velocities.row(plane.axes[2]).array() == 0).all());
   });
 }
 
@@ -171,7 +171,8 @@ void VelocitySurvey::add(const FrameRead& frame) {
 }
 
 double VelocitySurvey::relative_error() const {
-  return with_differences_ > 0 ? std::sqrt(with_velocities_ / with_differences_) : 1;
+  if (with_velocities_ == with_differences_) return 1;     // also for fewer than seven frames
+  return std::sqrt(with_velocities_ / with_differences_);  // infinite if differences are exact
 }
 
 bool CellSurvey::is_periodic(const std::optional<AxisPlane>& plane) const {
@@ -211,7 +212,7 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   const FloatingPointScope to_nearest;
   const std::vector<NecklaceBeads>& necklaces = frames.necklaces();
   FrameSurvey survey;
-  PlaneSearch planes;
+  PlaneSearch planes, planes_of_positions;
   CellSurvey cells;
   VelocitySurvey velocities;
   std::string doubt;  // about the first necklace whose unit is doubtful
@@ -221,7 +222,8 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
       survey.first_positions = frame.positions;
     }
     survey.last = frame.stamp;
-    planes.add(frame);
+    planes.add(frame, true);
+    planes_of_positions.add(frame, false);
     cells.add(frame);
     velocities.add(frame);
     Eigen::Index begin = 0;
@@ -238,9 +240,11 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   survey.truncated = frames.is_truncated();
   survey.plane = planes.plane();
   survey.periodic = cells.is_periodic(survey.plane);
-  if (!survey.periodic) survey.lacks_images = cells.why_not();
+  survey.plane_of_positions = planes_of_positions.plane();
+  survey.periodic_in_that_plane = cells.is_periodic(survey.plane_of_positions);
   survey.velocities = velocities.all();
-  if (!survey.velocities) survey.lacks_velocities = velocities.why_not();
+  if (!survey.velocities) survey.leave_velocities(velocities.why_not());
+  if (!survey.periodic) survey.lacks_images = cells.why_not();
   survey.error_with_velocities = velocities.relative_error();
   if (!doubt.empty()) warn(doubt);
   if (warn)

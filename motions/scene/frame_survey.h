@@ -31,8 +31,8 @@ struct AxisPlane {
 /// Finds a plane that contains all beads of all frames.
 class PlaneSearch {
  public:
-  /// Adds positions, or velocities. Velocities of beads that stay in the plane have no part across it.
-  void add(const FrameRead& frame);
+  /// Adds a frame, or its positions alone. A bead whose velocity leaves a plane rules it out.
+  void add(const FrameRead& frame, bool with_velocities);
   /// Returns the plane, or nothing if there is none or if there are fewer than four beads, which always lie
   /// in some plane.
   [[nodiscard]] std::optional<AxisPlane> plane() const;
@@ -100,17 +100,20 @@ class CellSurvey {
   CellJumps jumps_;
 };
 
-/// Finds out whether Hermite curves can have the velocities of the frames.
+/// Checks whether all frames have velocities and ascending times, and compares these velocities with central
+/// differences.
 class VelocitySurvey {
  public:
   void add(const FrameRead& frame);
   /// Returns whether there are two frames or more, all with velocities and with times that ascend.
   [[nodiscard]] bool all() const { return frames_ > 1 && lacks_.empty(); }
   /// Returns why not, or an empty text if no frame has velocities.
-  [[nodiscard]] std::string why_not() const { return any_ ? lacks_ : ""; }
-  /// Returns by how much Hermite curves through every other frame miss the frames between them with the
-  /// velocities of the frames, relative to central differences (root mean square). Returns 1 for fewer than
-  /// seven frames.
+  [[nodiscard]] std::string why_not() const {
+    return !any_ ? "" : frames_ < 2 ? "there is only one frame" : lacks_;
+  }
+  /// Returns the root mean square error of predicted frames with velocities, divided by that with central
+  /// differences in time. Every other frame is left out and predicted by a Hermite curve. The differences are
+  /// those of a run if frames are equally spaced. Returns 1 for fewer than seven frames.
   [[nodiscard]] double relative_error() const;
 
  private:
@@ -131,10 +134,20 @@ struct FrameSurvey {
   LongestBond bonds;  ///< empty unless requested
   /// All frames have a cell that the scene can use, so beads have images.
   bool periodic = false;
-  std::string lacks_images = {};      ///< why beads have no images, if any frame has a cell; for messages
+  std::string lacks_images = {};  ///< why beads have no images, if any frame has a cell; for messages
+  std::optional<AxisPlane> plane_of_positions = {};  ///< also if velocities leave it
+  bool periodic_in_that_plane = false;
   bool velocities = false;            ///< VelocitySurvey::all
   std::string lacks_velocities = {};  ///< why not, for messages; empty if they are used or not asked for
   double error_with_velocities = 1;   ///< VelocitySurvey::relative_error
+
+  /// Does without the velocities of the frames.
+  void leave_velocities(const std::string& why) {
+    velocities = false;
+    lacks_velocities = why;
+    plane = plane_of_positions;
+    periodic = periodic_in_that_plane;
+  }
 };
 
 /// Reads all frames and starts again at the first. Passes the source's warnings to `warn`. Throws InputError

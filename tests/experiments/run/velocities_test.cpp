@@ -80,6 +80,27 @@ TEST_F(Velocities, ResultsSayWhereTheyComeFrom) {
   }
 }
 
+// Times that are 1000 times too long make the velocities useless.
+TEST_F(Velocities, AreLeftOutWhereTheyMislead) {
+  CubicPaths paths;
+  paths.times = {0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75};
+  paths.has_times = false;
+  scratch_.file("a.lammpstrj", paths.dump());
+  const std::string run = "run OUT/a.lammpstrj --structures power --quiet --motion hermite --dt 250";
+  for (const auto& [asked, used] : {std::pair("", "differences"),
+                                    {" --velocities file", "file"},
+                                    {" --velocities differences", "differences"}}) {
+    EXPECT_EQ(run_json(run + asked, scratch_.path()).at("input").at("velocities"), used) << asked;
+    const bool warned =
+        run_line(run + asked, scratch_.path()).err.find("the error of differences") != std::string::npos;
+    EXPECT_EQ(warned, asked != " --velocities differences"s) << asked;
+  }
+  const std::string certified =
+      "run OUT/a.lammpstrj --structures contacts --motion hermite --dt 0.25 --velocities file";
+  EXPECT_THAT(run_line(certified + " --frames ::2 --certify", scratch_.path()).out,
+              HasSubstr("velocities of the file"));
+}
+
 TEST_F(Velocities, PartsAndThreadsGiveTheEventsOfOneRun) {
   CubicPaths paths;
   paths.beads = 20;

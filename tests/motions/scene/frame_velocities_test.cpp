@@ -130,6 +130,27 @@ TEST(FrameVelocities, AreComparedWithDifferences) {
   EXPECT_EQ(made_of({few}, {.time_step = 250}).survey.error_with_velocities, 1);
 }
 
+// Beads that stand still have better differences than velocities, and a plane that velocities leave is a
+// plane.
+TEST(FrameVelocities, LoseToDifferencesThatAreExact) {
+  TrrMaker maker;
+  maker.has_box = false;
+  maker.has_velocities = true;
+  std::string bytes;
+  maker.frames.assign(9, std::vector<TrrMaker::Atom>(5));
+  for (std::size_t k = 0; k < 9; ++k) {
+    for (std::size_t i = 0; i < 5; ++i)
+      maker.frames[k][i] = {0.38 * static_cast<double>(i), 0.01 * static_cast<double>(i * i), 0};
+    bytes += maker.frame_bytes(k);
+  }
+  FrameSurvey survey = made_of({test::write_file("a.trr", bytes)}).survey;
+  EXPECT_GT(survey.error_with_velocities, 1);
+  EXPECT_TRUE(survey.velocities);
+  EXPECT_FALSE(survey.plane);
+  survey.leave_velocities("a reason");
+  EXPECT_TRUE(survey.plane);
+}
+
 TEST(FrameVelocities, AreThoseOfAllFramesOrOfNone) {
   TrrMaker maker;
   maker.has_box = false;
