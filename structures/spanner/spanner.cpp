@@ -89,14 +89,24 @@ template <int D>
 bool Spanner<D>::hold(Guard& guard, Length length, int level, std::array<BeadId, 2> beads, int wanted) {
   if (guard.handle != none) return true;
   if (building_) return wanted * sign(length, level, beads[0], beads[1]) >= 0;
+  if (gathering_) {
+    const auto place = static_cast<std::uint32_t>(gathered_.size());
+    table(length, level).one_of_many(place, KnownAtStart::unknown) = {beads, wanted};
+    gathered_.push_back({&guard, {none, length, level}, beads});
+    return true;
+  }
   const bool is_negated = failed_ && *failed_ == Failed{length, level, key_of(beads[0], beads[1]), -wanted};
   const KnownAtStart birth = is_negated ? KnownAtStart::at_own_root : KnownAtStart::unknown;
-  guard = {table(length, level).watch({beads, wanted}, 0, birth), length, level};
-  if (guard.handle == none) return false;
-  for (const BeadId bead : beads)
-    statistics.certificates.per_bead_max =
-        std::max<std::uint64_t>(statistics.certificates.per_bead_max, ++named_[bead]);
-  return true;
+  keep(guard, {table(length, level).watch({beads, wanted}, 0, birth), length, level}, beads);
+  return guard.handle != none;
+}
+
+template <int D>
+void Spanner<D>::keep(Guard& guard, const Guard& made, const std::array<BeadId, 2>& beads) {
+  guard = made;
+  if (guard.handle == none) return;
+  std::uint64_t& most = statistics.certificates.per_bead_max;
+  for (const BeadId bead : beads) most = std::max<std::uint64_t>(most, ++named_[bead]);
 }
 
 template <int D>
@@ -473,10 +483,25 @@ void Spanner<D>::start_step() {
   for (Node& node : nodes_) node.cover.handle = none;
   named_.assign(bead_count(), 0);
   std::sort(keys.begin(), keys.end());
-  for (const Key key : keys)
-    if (const auto pair = pairs_.find(key); pair != pairs_.end()) certify(pair->second);
-  for (BeadId bead = 0; bead < bead_count(); ++bead)
-    if (nodes_[bead].parent != no_bead) cover(bead);
+  const auto certify_all = [&] {
+    for (const Key key : keys)
+      if (const auto pair = pairs_.find(key); pair != pairs_.end()) certify(pair->second);
+    for (BeadId bead = 0; bead < bead_count(); ++bead)
+      if (nodes_[bead].parent != no_bead) cover(bead);
+  };
+  gathering_ = true;
+  certify_all();
+  gathering_ = false;
+  for (const std::unique_ptr<Table>& table : tables_) {
+    if (!table) continue;
+    table->watch_enqueued([&](std::uint32_t place, CertificateHandle handle) {
+      Gathered& one = gathered_[place];
+      one.made.handle = handle;
+      keep(*one.guard, one.made, one.beads);
+    });
+  }
+  gathered_.clear();
+  certify_all();  // repairs what does not hold
   resolve();
 }
 

@@ -130,6 +130,12 @@ class Spanner final : public EditableBase {
     std::vector<BeadId> children;  // other beads, at all levels
     std::vector<Pair*> pairs;
   };
+  /// A certificate that is searched together with others at the start of a step.
+  struct Gathered {
+    Guard* guard;
+    Guard made;
+    std::array<BeadId, 2> beads;
+  };
   /// A pair before the event that is being handled.
   struct Before {
     bool was_joined;
@@ -156,8 +162,9 @@ class Spanner final : public EditableBase {
   [[nodiscard]] int sign(Length length, int level, BeadId a, BeadId b);
   /// Makes the certificate unless it exists: that the beads are at least (`wanted` 1) or at most (-1) the
   /// length apart. Returns false if that does not hold. Makes no certificates while the structure is being
-  /// built.
+  /// built. At the start of a step, leaves the certificate to a search of all together and returns true.
   [[nodiscard]] bool hold(Guard& guard, Length length, int level, std::array<BeadId, 2> beads, int wanted);
+  void keep(Guard& guard, const Guard& made, const std::array<BeadId, 2>& beads);
   void drop(Guard& guard, const std::array<BeadId, 2>& beads);
   /// Forgets a certificate that has failed, which its table has removed.
   void forget(Guard& guard, const std::array<BeadId, 2>& beads);
@@ -216,6 +223,8 @@ class Spanner final : public EditableBase {
   std::optional<Failed> failed_;  // the event that is being handled
   BeadId leaving_ = no_bead;      // a centre whose children take other parents
   bool editing_ = false;          // stays true if an exception ended an edit
+  bool gathering_ = false;
+  std::vector<Gathered> gathered_;
   bool building_ = false;
   bool knows_pairs_ = false;          // not after changes from a log, which names edges only
   std::vector<std::uint32_t> named_;  // the number of certificates on each bead

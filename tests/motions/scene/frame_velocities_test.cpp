@@ -140,7 +140,7 @@ TEST(FrameVelocities, LoseToDifferencesThatAreExact) {
   maker.frames.assign(9, std::vector<TrrMaker::Atom>(5));
   for (std::size_t k = 0; k < 9; ++k) {
     for (std::size_t i = 0; i < 5; ++i)
-      maker.frames[k][i] = {0.38 * static_cast<double>(i), 0.01 * static_cast<double>(i * i), 0};
+      maker.frames[k][i] = {0.38 * static_cast<double>(i), 0.01 * static_cast<double>(i * i), 0.2};
     bytes += maker.frame_bytes(k);
   }
   FrameSurvey survey = made_of({test::write_file("a.trr", bytes)}).survey;

@@ -130,8 +130,8 @@ TEST(Spanner, RandomCurvesInSpace) { try_random_motions<BezierMotion<3, 3>>(5); 
 TEST(Spanner, Instances) {
   const std::vector plane{instance_motion<BezierMotion<2, 1>>("d2_n20_linear")};
   EXPECT_GT(expect_right(plane, 3).size(), 20U);
-  std::vector<const char*> degenerate{"converge", "gridint", "gridrigid", "half"};
-  degenerate.resize(rounds(4U));
+  std::vector<const char*> degenerate{"gridrigid", "converge", "gridint", "half"};
+  degenerate.resize(rounds(1U));
   for (const char* name : degenerate) {
     SCOPED_TRACE(name);
     expect_right(std::vector{instance_motion<BezierMotion<2, 1>>(text_of("degenerate_d2_n64_", name))}, 9,
@@ -170,8 +170,9 @@ TEST(Spanner, RefusesEditsAfterOneThatWasBrokenOff) {
   rig.simulator.build();
   rig.simulator.enter_step();
   rig.simulator.exact_work().set_limit(1);
-  EXPECT_THROW(rig.structure.erase(7), WorkLimitReached);
-  EXPECT_THROW(rig.structure.insert(7), std::logic_error);
+  rig.structure.erase(7);
+  EXPECT_THROW(rig.structure.insert(7), WorkLimitReached);
+  EXPECT_THROW(rig.structure.erase(8), std::logic_error);
 }
 
 }  // namespace
