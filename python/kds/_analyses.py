@@ -70,13 +70,14 @@ class Contacts(Result):
         The 95% intervals, such as ``intermittent_lower``, are for another run of the same pairs, as in :meth:`over_time`. Lags
         above half of the run have none.
         """
-        return _lifetimes.correlation(lags, [_lifetimes.Timeline(self)])
+        return _lifetimes.correlation(lags, [_lifetimes.Timeline(self)], in_order=True)
 
     def over_time(self):
         """Returns occupancy, residence and both rates with 95% intervals for another run of the same pairs, a dictionary.
 
-        The intervals come from the spread over 16 stretches of the run and cover any dependence between pairs. Intervals of
-        ``all`` are for other pairs and take pairs as independent. Use this method for the pairs of one molecule.
+        The intervals come from the spread over 16 stretches of the run. They allow for dependence between pairs if the run is
+        many times as long as its slowest motion. Intervals of ``all`` are for other pairs and take pairs as independent. Use
+        this method for the pairs of one molecule.
         """
         line = _lifetimes.Timeline(self)
         return _lifetimes.figures([line.counts(*one) for one in _lifetimes.stretches(line.length)], in_order=True)
@@ -138,7 +139,7 @@ class Replicas:
 
     def correlation(self, lags):
         """Returns the table of :meth:`kds.Contacts.correlation` over all replicas, with intervals from their spread."""
-        return _lifetimes.correlation(lags, self._lines)
+        return _lifetimes.correlation(lags, self._lines, in_order=False)
 
     def survival(self, times):
         """Returns the share of the contacts that begin which last longer than these times, a table. Intervals come from the

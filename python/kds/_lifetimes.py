@@ -22,7 +22,7 @@ def ratio(above, below, in_order):
 
     Rows are replicas or, `in_order`, stretches of a run. Stretches depend on each other, but the slowest cosine waves over the
     run hardly do. So the variance comes from four of them: the equal-weighted cosine test of Lazarus, Lewis, Stock and Watson
-    (2018). An end that does not follow from the data is NaN.
+    (2018). (The program's mean_over_time needs 50 values, and these are 16.) An end that does not follow from the data is NaN.
     """
     count = len(above)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -89,31 +89,34 @@ def stretches(length):
 
 
 def lags_of(name, lags, length):
-    """Returns times as an array. Refuses times that are not shorter than the run."""
+    """Returns times as an array. Refuses an empty list, and times that are not shorter than the run."""
     found = np.atleast_1d(numbers(name, lags)).astype(float)
-    if found.ndim > 1 or not ((found >= 0) & (found < length)).all():
+    if found.ndim > 1 or len(found) == 0 or not ((found >= 0) & (found < length)).all():
         raise InputError(f"{name}: expected times from 0 to less than the length of the run, which is {length:.6g}")
     return found
 
 
-def correlation(lags, runs):
-    """Returns the table of ``Contacts.correlation`` of one run, or of replicas."""
+def correlation(lags, runs, in_order):
+    """Returns the table of ``Contacts.correlation`` of one run, `in_order`, or of replicas."""
     lags = lags_of("lags", lags, min(run.length for run in runs))
     rows = [[run.correlated(lag, first, last) for run in runs for first, last in
-             (stretches(run.length - lag) if len(runs) == 1 else [(0, run.length - lag)])] for lag in lags]
+             (stretches(run.length - lag) if in_order else [(0, run.length - lag)])] for lag in lags]
     on, both, throughout = np.array(rows, float).reshape(len(lags), -1, 3).transpose(2, 1, 0)
     columns = {"lag": lags}
     for name, above in (("intermittent", both), ("continuous", throughout)):
-        value, lower, upper = ratio(above, on, len(runs) == 1)
-        if len(runs) == 1:  # random times of a longer lag lie too close together to show a spread
+        value, lower, upper = ratio(above, on, in_order)
+        if in_order:  # random times of a longer lag lie too close together to show a spread
             lower, upper = (np.where(lags <= runs[0].length / 2, end, np.nan) for end in (lower, upper))
         columns.update({name: value, f"{name}_lower": lower, f"{name}_upper": np.minimum(upper, 1)})
     return table(columns)
 
 
 def survival_at(times, runs):
-    """Returns the share of the contacts that begin in these runs which last longer than each time (Kaplan and Meier)."""
+    """Returns the share of the contacts that begin in these runs which last longer than each time (Kaplan and Meier). It is NaN
+    if no contact begins."""
     life = np.concatenate([(run.end - run.begin)[run.begun] for run in runs])
+    if len(life) == 0:
+        return np.full(len(times), np.nan)
     ended = np.concatenate([run.ended[run.begun] for run in runs])
     order = np.lexsort((~ended, life))
     steps = np.cumprod(np.append(1, 1 - ended[order] / np.arange(len(life), 0, -1)))

@@ -65,10 +65,12 @@ class Correlation(unittest.TestCase):
         self.assertTrue(np.isnan(found.correlation([1])["intermittent"][0]))
         self.assertEqual(found.over_time()["occupancy"], 0)
         self.assertTrue(np.isnan(found.over_time()["occupancy_upper"]))
+        replicas = kds.contacts_of_replicas([coil()] * 3, cutoff=0.01, by="bead")
+        self.assertTrue(np.isnan([replicas.survival([1])[name][0] for name in ("survival", "lower", "upper")]).all())
 
     def test_lags_beyond_the_run_are_refused(self):
         found = kds.contacts(wandering(), cutoff=5, by="bead", apart=1)
-        for lags in (39, [-1], [[1]], [np.nan]):
+        for lags in (39, [-1], [[1]], [np.nan], []):
             with self.assertRaisesRegex(kds.InputError, "^lags: expected times from 0 to less than .* 39$"):
                 found.correlation(lags)
 
@@ -110,6 +112,15 @@ class Replicas(unittest.TestCase):
         found = kds.contacts_of_replicas([wandering(seed=1), wandering(seed=2)], **self.options)
         self.assertTrue(np.isnan(found.all["residence_lower"]))
         self.assertTrue(np.isnan(found.survival([1])["upper"][0]))
+
+    def test_one_has_no_interval(self):
+        """A list of one run has the figures of the run, and no interval from stretches of it."""
+        run = kds.contacts(wandering(), **self.options)
+        one, found = kds.contacts_of_replicas([wandering()], **self.options).correlation([2]), run.correlation([2])
+        for name in ("intermittent", "continuous"):
+            self.assertAlmostEqual(one[name][0], found[name][0])
+            self.assertTrue(np.isnan([one[f"{name}_lower"][0], one[f"{name}_upper"][0]]).all())
+            self.assertTrue(np.isfinite(found[f"{name}_lower"][0]))
 
     def test_what_is_no_list_of_one_system_is_refused(self):
         for replicas in ("a.dcd", [], wandering()):
