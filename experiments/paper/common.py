@@ -1,4 +1,4 @@
-"""What the scripts of this folder share: options, figures of the paper in CSV files, printed tables, verdicts on claims."""
+"""Tools of the scripts of this folder: options, figures of the paper in CSV files, printed tables, verdicts on claims, figures."""
 
 import argparse
 import csv
@@ -32,6 +32,25 @@ def shown(value):
 def span(values):
     """Returns the least and the largest value in words."""
     return f"{shown(min(values))} to {shown(max(values))}"
+
+
+def subplots(*shape, **options):
+    """Returns a figure of matplotlib and its axes. Text stays text in its SVG, and files do not vary."""
+    import matplotlib
+
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})
+    return pyplot.subplots(*shape, **options)
+
+
+def save(figure, path):
+    """Writes a figure of subplots() and closes it."""
+    from matplotlib import pyplot
+
+    figure.savefig(path, metadata={"Date": None})
+    pyplot.close(figure)
 
 
 class Report:

@@ -19,7 +19,7 @@ import kds
 import kds.reading
 import numpy as np
 from chains import beads_of_grid, model
-from common import HERE, Report
+from common import HERE, Report, save, subplots
 from scipy.optimize import linprog
 from scipy.sparse import csr_matrix
 from subjects import SCALING_TURNS, SPIRAL_TURNS, half_longest_bond
@@ -166,13 +166,7 @@ def measured(data, short=False):
 
 def draw(rows, path):
     """Draws family sizes over the number of beads, and what overlaps save."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-
-    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})
-    figure, (sizes, savings) = pyplot.subplots(1, 2, figsize=(10, 4.4))
+    figure, (sizes, savings) = subplots(1, 2, figsize=(10, 4.4))
     for kind, color in zip(dict.fromkeys(row["kind"] for row in rows), COLORS):
         for hierarchy, face in (("wrapped", color), ("layered", "white")):
             of_kind = [row for row in rows if (row["kind"], row["hierarchy"]) == (kind, hierarchy)]
@@ -193,8 +187,7 @@ def draw(rows, path):
     sizes.yaxis.set_major_formatter("{x:g}")
     sizes.legend(frameon=False, fontsize=9)
     figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
-    pyplot.close(figure)
+    save(figure, path)
 
 
 def draw_all(folder):

@@ -12,7 +12,7 @@ beads change most is drawn. draw_all() writes figure-N.svg, which needs matplotl
 import kds
 import numpy as np
 from chains import BOND, layered_and_wrapped, model, random_numbers, tightness_points
-from common import Report
+from common import Report, save, subplots
 
 COLORS = ("#1f2933", "#b3462f", "#c98a1b", "#3b8a5a", "#8fb8de")  # of the levels of a hierarchy; deeper ones have the last
 COSINES, STEPS = 4, 20
@@ -131,15 +131,10 @@ def tightness():
 
 def draw(panels, path):
     """Draws panels side by side, in one scale."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot
     from matplotlib.patches import Circle
 
-    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})  # text stays text, and files do not vary
     half = max(sphere[3] for *_, circles in panels for sphere, _ in circles) * 1.05
-    figure, every = pyplot.subplots(1, len(panels), figsize=(4 * len(panels), 4.2), squeeze=False)
+    figure, every = subplots(1, len(panels), figsize=(4 * len(panels), 4.2), squeeze=False)
     for axes, (name, centers, radius, dark, circles) in zip(every[0], panels):
         middle = circles[0][0]
         axes.set(title=name, aspect="equal", xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half))
@@ -153,8 +148,7 @@ def draw(panels, path):
         for sphere, level in circles:
             axes.add_patch(Circle(sphere[:2], sphere[3], fill=False, edgecolor=COLORS[min(level, len(COLORS) - 1)]))
     figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
-    pyplot.close(figure)
+    save(figure, path)
 
 
 FIGURES = {"2": hierarchies, "3": stability, "5": tightness}

@@ -12,7 +12,7 @@ from functools import cache
 
 import kds
 import numpy as np
-from common import Report
+from common import Report, save, subplots
 
 RUNS, CUTOFF, STRIDES = 200, 8, (1, 2, 4, 8, 16)
 WATER = {"select": "//*", "by": "bead", "groups": ("//*/(SOL)/OW", "//*//O"), "apart": 1}
@@ -233,13 +233,7 @@ def renewal(found, lags):
 
 def draw(data, path):
     """Draws the three curves of water, and the number of contacts by stride for three definitions."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-
-    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})  # text stays text, and files do not vary
-    figure, (left, right) = pyplot.subplots(1, 2, figsize=(9, 3.8))
+    figure, (left, right) = subplots(1, 2, figsize=(9, 3.8))
     lags = np.linspace(0, 8, 81)
     found, table, _ = curves(data, lags=lags)
     for column, label, color in (("intermittent", "C(t): in contact again or still", "#2f6ea5"),
@@ -265,8 +259,7 @@ def draw(data, path):
     right.set_yticks([50, 100, 200, 500, 1000], ["50", "100", "200", "500", "1000"])
     right.legend(frameon=False, fontsize=8, ncols=2, loc="lower left", handlelength=3)
     figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
-    pyplot.close(figure)
+    save(figure, path)
 
 
 def main():

@@ -20,7 +20,7 @@ import kds
 import kds.reading
 import kds.timing
 import numpy as np
-from common import Report
+from common import Report, save, subplots
 from scipy.spatial import cKDTree
 from subjects import half_longest_bond
 
@@ -193,13 +193,7 @@ def percent(value):
 
 def draw(results, path):
     """Draws both fronts for two trajectories, and the times of generated chains against their numbers of beads."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-
-    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})
-    figure, every = pyplot.subplots(2, 3, figsize=(14, 9), width_ratios=(4, 4, 3))
+    figure, every = subplots(2, 3, figsize=(14, 9), width_ratios=(4, 4, 3))
     by_row = {row["row"]: row for row in results["rows"] + results["times"]}
     for line, methods, what, end in zip(every, (HIERARCHIES, CONTACTS), ("hierarchies", "contacts"), ("", ", contacts")):
         for k, (work, method) in enumerate(methods.items()):
@@ -224,8 +218,7 @@ def draw(results, path):
         line[2].set(xscale="log", yscale="log", xlabel="beads", ylabel="nanoseconds a bead and step", title=f"{what} of chains")
         line[2].legend(loc="center left", bbox_to_anchor=(1, 0.5), frameon=False)
     figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
-    pyplot.close(figure)
+    save(figure, path)
 
 
 def main():

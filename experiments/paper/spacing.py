@@ -20,7 +20,7 @@ from pathlib import Path
 import fits
 import kds
 import numpy as np
-from common import HERE, Report
+from common import HERE, Report, save, subplots
 
 STRIDES = [2**k for k in range(10)]
 RANGES = (8, 32), (32, 128), (128, 512)  # strides between which exponents are measured
@@ -97,19 +97,13 @@ def coverage(rounds, runs=5, frames=9729):
 
 def draw(table, picture):
     """Draws the numbers in a CSV file of --csv, one panel for each system."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-
-    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})  # text stays text, and files do not vary
     with open(table, newline="", encoding="utf-8") as file:
         lines = {}
         for row in csv.DictReader(file):
             if row["motion"] in LINES and "life" not in row["measure"]:
                 lines.setdefault(row["system"], {}).setdefault(row["measure"], {}).setdefault(row["motion"], []).append(row)
     size = {"figsize": (5 * len(lines), 4.2), "layout": "constrained"}
-    figure, panels = pyplot.subplots(1, len(lines), squeeze=False, sharey=True, **size)
+    figure, panels = subplots(1, len(lines), squeeze=False, sharey=True, **size)
     for axes, (system, measures) in zip(panels[0], lines.items()):
         if axes is panels[0][-1]:
             for line, words in (LINES[motion] for motion in next(iter(measures.values()))):
@@ -124,8 +118,7 @@ def draw(table, picture):
         axes.minorticks_off()
         axes.legend(frameon=False, loc="upper right" if axes is panels[0][-1] else "lower left")
     panels[0][0].set_ylabel("number / number of cubics at 2 fs")
-    figure.savefig(picture, metadata={"Date": None})
-    pyplot.close(figure)
+    save(figure, picture)
 
 
 def draw_all(folder):

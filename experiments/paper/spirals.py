@@ -14,7 +14,7 @@ import itertools
 import kds.timing
 import numpy as np
 from chains import random_numbers
-from common import Report, read_csv, shown, span
+from common import Report, read_csv, save, shown, span, subplots
 from scipy.spatial.transform import Rotation
 from subjects import two_spirals
 
@@ -93,13 +93,7 @@ def over_poses(rows, stage, kind, gap, name):
 
 def draw(rows, papers, path):
     """Draws the ratio of times and the sets over the gap, extended above and rolled below, with the paper's figures."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    from matplotlib import pyplot
-
-    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})
-    figure, every = pyplot.subplots(2, 2, figsize=(11, 8), sharex=True)
+    figure, every = subplots(2, 2, figsize=(11, 8), sharex=True)
     gaps = sorted({row["gap"] for row in rows})
     for (ratio, sets), stage in zip(every, ("extended", "rolled")):
         for kind, color in COLORS.items():
@@ -131,8 +125,7 @@ def draw(rows, papers, path):
     every[0][0].plot([], [], "*", color="#1f2933", markersize=11, label="the paper, at the gap whose sets are nearest")
     every[0][0].legend(frameon=False, fontsize=9, bbox_to_anchor=(0, 0.86), loc="upper left")
     figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
-    pyplot.close(figure)
+    save(figure, path)
 
 
 def of_paper():

@@ -21,7 +21,7 @@ import functools
 import kds
 import kds.reading
 import numpy as np
-from common import Report
+from common import Report, save, subplots
 from fits import mean_interval
 from subjects import half_longest_bond
 from volumes import OrientedBoxes, Slabs, Spheres, Tree, layered_states, search, search_along, search_spanner
@@ -158,13 +158,9 @@ def mean(row, column):
 
 def draw(found, path):
     """Draws events against compared pairs, both by bead: a line for each structure with a mark for each radius, ascending."""
-    import matplotlib
+    from matplotlib import ticker
 
-    matplotlib.use("svg")
-    from matplotlib import pyplot, ticker
-
-    pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "kds"})  # text stays text, and files do not vary
-    figure, every = pyplot.subplots(2, 2, figsize=(9, 8), sharex=True)
+    figure, every = subplots(2, 2, figsize=(9, 8), sharex=True)
     for axes, (name, one) in zip(every.flat, found.items()):
         for structure, (color, mark) in STYLES.items():
             rows = [row for row in one.rows if row["structure"] == structure]
@@ -184,8 +180,7 @@ def draw(found, path):
         axes.set_xlabel("compared pairs / bead")
     figure.legend(*every[0, 0].get_legend_handles_labels(), loc="lower center", ncols=5, frameon=False)
     figure.tight_layout(rect=(0, 0.06, 1, 1))
-    figure.savefig(path, metadata={"Date": None})
-    pyplot.close(figure)
+    save(figure, path)
 
 
 def measure(data, short):
