@@ -187,9 +187,9 @@ def tree_over(points, radius, layered=False):
     return Node(points, 0, len(points) - 1, radius, layered)
 
 
-def separating_pairs(root, apart, other=None):
-    """Splits the node with more beads, and the first of two equal ones. Leaves out pairs nearer than `apart`. `other` is the
-    root of a second necklace: then only pairs between the two are asked about."""
+def separating_pairs(root, apart=None, other=None):
+    """Splits the node with more beads, and the first of two equal ones. Leaves out pairs of one necklace that are nearer than
+    `apart`. `other` is the root of a second necklace: then only pairs between the two are asked about, and all of these."""
     pairs, waiting = [], [(root, other or root)]
     while waiting:
         u, v = waiting.pop()
@@ -197,7 +197,7 @@ def separating_pairs(root, apart, other=None):
             if u.children:
                 left, right = u.children
                 waiting += [(left, left), (right, right), (left, right)]
-        elif v.last - u.first < apart:
+        elif other is None and v.last - u.first < apart:
             continue
         elif ((u.center - v.center) ** 2).sum() > (u.radius + v.radius) ** 2:
             pairs.append((u, v))
@@ -454,7 +454,7 @@ def compare_spirals():
             for kind in ("wrapped", "layered"):
                 roots = [tree_over(places, 0.0, kind == "layered") for places in (points, moved)]
                 row = f"{stage}, stacked, gap {gap}"
-                found = len(separating_pairs(roots[0], -1000, roots[1]))
+                found = len(separating_pairs(roots[0], other=roots[1]))
                 check(f"spirals, {row}, {kind} set", counts[row][f"{kind}_pairs"], found)
 
 

@@ -1,6 +1,7 @@
 """Runs a script of experiments/paper in its short form. Usage: check_script.py NAME, such as table1.
 
 The counts of its rows must be those in NAME.json of this folder, if there is such a file. A row is named by its member "row".
+The claims that NAME.json lists under "claims" must hold. Other claims, such as those on times, may fail.
 Exit code 77 (skipped) if numpy or scipy is not installed.
 """
 
@@ -30,6 +31,8 @@ failures = [] if results["rows"] or results["claims"] else ["no rows and no clai
 expected_file = HERE / f"{name}.json"
 if expected_file.exists():
     expected = json.loads(expected_file.read_text())
+    holds = {claim["claim"]: claim["holds"] for claim in results["claims"]}
+    failures += [f"claim {claim!r} does not hold" for claim in expected.pop("claims", []) if not holds.get(claim)]
     found = {row["row"]: row for row in results["rows"]}
     failures += [f"{row}: is not expected" for row in found if row not in expected]
     if len(found) < len(expected) / 2:
