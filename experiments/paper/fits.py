@@ -5,7 +5,8 @@ of sizes has an interval: residuals of sizes are no independent errors.
 """
 
 import numpy as np
-from scipy import optimize, stats
+from kds._lifetimes import student_95
+from scipy import optimize
 
 # The forms that are compared if no theorem names one.
 USUAL_FORMS = (((0, 0),), ((0, 1),), ((0, 1), (0, 0)), ((1, 0),), ((1, 0), (0, 0)), ((1, 1),), ((1, 1), (1, 0)),
@@ -48,7 +49,7 @@ def jackknife(points, without):
         return None
     others = np.array([exponent for exponent, _ in fits[1:]])
     error = np.sqrt((len(without) - 1) * np.var(others))
-    return fits[0][0], float(stats.t.ppf(0.975, len(without) - 1) * error)
+    return fits[0][0], float(student_95(len(without) - 1) * error)
 
 
 def mean_interval(seeds):
@@ -56,7 +57,7 @@ def mean_interval(seeds):
     mean, count = float(np.mean(seeds)), len(seeds)
     if count < 2 or mean <= 0 or np.ptp(seeds) == 0:
         return mean, None, None
-    error = stats.t.ppf(0.975, count - 1) * np.std(seeds, ddof=1) / np.sqrt(count)
+    error = student_95(count - 1) * np.std(seeds, ddof=1) / np.sqrt(count)
     return mean, float(mean * np.exp(-error / mean)), float(mean * np.exp(error / mean))
 
 

@@ -1,5 +1,7 @@
 """Correlation functions of contacts, and figures whose intervals come from stretches of a run or from replicas."""
 
+from functools import cache
+
 import numpy as np
 
 from ._options import InputError, numbers
@@ -9,6 +11,7 @@ STRETCHES, WAVES = 16, 4
 LEAST_REPLICAS = 3  # as least_pooled of experiments/program/mean_interval.h
 
 
+@cache
 def student_95(freedom):
     """Returns the 97.5% quantile of Student's t. The density of arctan(t / sqrt(freedom)) is a power of its cosine."""
     angle = np.linspace(0, np.pi / 2, 20001)
