@@ -1,4 +1,4 @@
-"""Tools of the scripts of this folder: options, figures of the paper in CSV files, printed tables, verdicts on claims, figures."""
+"""Tools of the scripts of this folder: options, numbers of the paper in CSV files, printed tables, claims, and figures."""
 
 import argparse
 import csv

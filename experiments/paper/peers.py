@@ -158,9 +158,9 @@ def contacts(name, frames, radius, rounds):
     radius *= FACTOR
     found = kds.timing.contact_steps(frames, radius, apart=APART, strides=STRIDES, rounds=rounds)
     found["kd_tree_1"] = seconds_of_scipy(frames, 2 * radius, rounds)
-    rows = kds.contacts(frames, cutoff=2 * radius, by="bead", apart=APART, strides=[1]).intervals
-    opened, closed = (~rows[f"open_at_{side}"] for side in ("start", "end"))
-    times = rows["begin_frame"], np.where(closed, rows["end_frame"], np.inf)
+    by_events = kds.contacts(frames, cutoff=2 * radius, by="bead", apart=APART, strides=[1]).intervals
+    opened, closed = (~by_events[f"open_at_{side}"] for side in ("start", "end"))
+    times = by_events["begin_frame"], np.where(closed, by_events["end_frame"], np.inf)
     counts = {"row": name, "pairs": found["pairs"], "begins": found["begins"], "ends": found["ends"],
               "contacts": len(opened), **{f"missed_{stride}": missed(*times, stride) for stride in STRIDES}}
     agree = [found["begins"], found["ends"]] == [int(opened.sum()), int(closed.sum())]
