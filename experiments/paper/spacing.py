@@ -1,4 +1,4 @@
-"""From which spacing of frames on do counts no longer depend on it?
+"""Below which spacing of frames do counts stop changing?
 
 Reads runs of molecular dynamics that were written at every step of 2 fs, and then every 2nd, 4th, 8th ... frame of them. Counts
 contacts, basis changes and flips on paths between these frames: straight ones (linear), and Hermite cubics with velocities from
@@ -42,18 +42,18 @@ def missed(intervals, stride):
     return float(np.mean(np.ceil(intervals["begin_frame"] / stride) * stride > intervals["end_frame"]))
 
 
-def every(path, stride, longest, target):
-    """Writes every stride-th frame of a TRR file, up to the last multiple of `longest`. All frames must have equal size."""
-    content = (gzip.open if path.suffix == ".gz" else open)(path, "rb").read()
+def read_frames(path, longest):
+    """Returns the bytes of each frame of a TRR file, up to the last multiple of `longest`. All frames must have equal size."""
+    with (gzip.open if path.suffix == ".gz" else open)(path, "rb") as file:
+        content = file.read()
     frames = np.frombuffer(content, np.uint8).reshape(-1, content.find(content[:24], 24))  # a frame starts with a magic word
-    frames[:(len(frames) - 1) // longest * longest + 1:stride].tofile(target)
+    return frames[:(len(frames) - 1) // longest * longest + 1]
 
 
-def measure(path, system, strides, place):
-    """Yields measure, motion, stride and value of one run, over the same time at all strides. Writes to the folder `place`."""
-    topology = path.with_name(path.name.split(".")[0] + ".gro")
+def measure(frames, topology, system, strides, folder):
+    """Yields measure, motion, stride and value of one run, over the same time at all strides. Writes to `folder`."""
     for stride in strides:
-        every(path, stride, strides[-1], file := Path(place, "part.trr"))
+        frames[::stride].tofile(file := Path(folder, "part.trr"))
         for motion, options in MOTIONS.items():
             given = {"topology": topology, **options}
             for name, contacts in CONTACTS[system].items():
@@ -70,9 +70,10 @@ def measure(path, system, strides, place):
 
 
 def exponents(values):
-    """Returns the slopes of minus the logarithms of values at STRIDES over RANGES."""
+    """Returns the slopes of minus the logarithms of values at STRIDES over RANGES; None where a value is 0."""
     at = dict(zip(STRIDES, values))
-    return [float(np.log(at[first] / at[last]) / np.log(last / first)) for first, last in RANGES]
+    return [float(np.log(at[first] / at[last]) / np.log(last / first)) if at[first] and at[last] else None
+            for first, last in RANGES]
 
 
 def coverage(rounds, runs=5, frames=9729):
@@ -125,14 +126,10 @@ def draw_all(folder):
     draw(HERE / "spacing.csv", f"{folder}/spacing.svg")
 
 
-def means_of(found, spacings):
-    """Returns rows of measure, motion, spacing, and the mean over runs with its interval. `found` has the runs of each."""
-    rows = []
-    for key, runs in found.items():
-        for spacing, values in zip(spacings, zip(*runs)):
-            known = [value for value in values if value is not None]
-            rows.append((*key, spacing, *(fits.mean_interval(known) if known else (None,) * 3)))
-    return rows
+def mean_of(values):
+    """Returns how many runs have a value, and their mean with its interval."""
+    known = [value for value in values if value is not None]
+    return len(known), *(fits.mean_interval(known) if known else (None,) * 3)
 
 
 def main():
@@ -145,29 +142,37 @@ def main():
     paths = sorted(path for system in CONTACTS for path in folder.glob(f"{system}[-_]*.trr*"))
     if not paths:
         raise SystemExit(f"--runs: {folder} has no runs, which simulate.py makes")
-    strides, found = STRIDES[::3] if report.short else STRIDES, {}
+    strides, found, rates = STRIDES[::3] if report.short else STRIDES, {}, {}
+    spacings = [fs * stride for stride in strides]
     for path in paths:
         system, values = next(system for system in CONTACTS if path.name.startswith(system)), {}
-        with tempfile.TemporaryDirectory() as place:
-            for name, motion, stride, value in measure(path, system, strides, place):
-                values.setdefault((name, motion), {})[f"fs_{fs * stride}"] = value
-        for (name, motion), row in values.items():
-            report.results["rows"].append({"row": f"{path.name.split('.')[0]}, {name}, {motion}", **row})
-            scale = 1 if motion == "frames" else values[name, "differences"][f"fs_{fs}"]
-            found.setdefault((system, name, motion), []).append([value and value / scale for value in row.values()])
-    report.results["means"] = means = means_of(found, [fs * stride for stride in strides])
-    report.show((f"by cubics at {fs} fs", *(f"{fs * stride} fs" for stride in strides)), [
-        (", ".join(key), *(mean for *other, mean, _, _ in means if tuple(other[:3]) == key)) for key in found])
+        frames, name = read_frames(path, strides[-1]), path.name.split(".")[0]
+        time = (len(frames) - 1) * fs / 1000  # ps
+        with tempfile.TemporaryDirectory() as part:
+            for *key, stride, value in measure(frames, path.with_name(name + ".gro"), system, strides, part):
+                values.setdefault(tuple(key), {})[f"fs_{fs * stride}"] = value
+        for (measured, motion), row in values.items():
+            report.results["rows"].append({"row": f"{name}, {measured}, {motion}", **row})
+            scale = 1 if motion == "frames" else values[measured, "differences"][f"fs_{fs}"]
+            found.setdefault((system, measured, motion), []).append([value and value / scale for value in row.values()])
+            if ": " not in measured:
+                rates.setdefault((system, measured, motion), []).append([value / time for value in row.values()])
+    means = [(*key, spacing, float(np.mean(rate)) if rate else None, *mean_of(values)) for key, runs in found.items()
+             for spacing, rate, *values in zip(spacings, zip(*rates[key]) if key in rates else [()] * len(spacings), *runs)]
+    report.results["means"] = means
+    report.show((f"by cubics at {fs} fs", "per ps", "least runs", *(f"{spacing} fs" for spacing in spacings)), [
+        (", ".join(key), rows[0][4], min(row[5] for row in rows), *(row[6] for row in rows))
+        for key in found if (rows := [row for row in means if row[:3] == key])])
     if not report.short:
-        slopes = {key: zip(*map(exponents, runs)) for key, runs in found.items() if ": " not in key[1]}
-        report.results["exponents"] = rows = [(*key, *(fs * stride for stride in ends), *fits.mean_interval(values))
-                                              for key, ranges in slopes.items() for ends, values in zip(RANGES, ranges)]
-        report.show(("number falls", "from fs", "to fs", "exponent", "95% from", "to"),
+        report.results["exponents"] = rows = [
+            (*key, *(fs * stride for stride in ends), *mean_of(values)) for key, runs in found.items() if key in rates
+            for ends, values in zip(RANGES, zip(*map(exponents, runs)))]
+        report.show(("number falls", "from fs", "to fs", "runs", "exponent", "95% from", "to"),
                     [(", ".join(row[:3]), *row[3:]) for row in rows])
     if report.given.csv:
         with open(report.given.csv, "w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(("system", "measure", "motion", "fs", "mean", "from", "to"))
+            writer.writerow(("system", "measure", "motion", "fs", "number_per_ps", "runs", "mean", "from", "to"))
             writer.writerows([*row[:4], *("" if value is None else f"{value:.5g}" for value in row[4:])] for row in means)
     shares = coverage(rounds := 200 if report.short else 400)
     report.claim("intervals", "intervals of 5 runs contain the true ratio or exponent in 90 to 99% of generated samples",
