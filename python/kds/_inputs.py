@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from . import _kds
-from ._options import InputError, number, numbers, plain, warn, whole, wholes
+from ._options import InputError, _text, number, numbers, plain, warn, whole, wholes
 
 _UNITS = ("angstrom", "nm")
 
@@ -238,27 +238,32 @@ class _Kept:
 
 
 def _collect_group(group, beads, chosen, wants_velocities):
-    """Copies the frames of an AtomGroup, and their velocities if all frames have them. If there is a cell, the frames
-    between those asked for are copied too, because the library follows the images of chains from frame to frame."""
+    """Copies the frames of an AtomGroup, and their velocities if all chosen frames have them. If there is a cell, the frames
+    between those asked for are copied too, because the library follows the images of chains from frame to frame; their
+    velocities are not read."""
     atoms = np.array(group.ix)
     with _Kept(group.universe.trajectory) as trajectory:
         trajectory[chosen.start]
         has_cell = trajectory.ts.dimensions is not None
         read = range(chosen.start, chosen[-1] + 1) if has_cell else chosen
         positions = np.empty((len(read), len(atoms), 3), dtype=np.float32)
-        velocities = np.empty_like(positions) if wants_velocities and trajectory.ts.has_velocities else None
-        times, cells = [], []
+        velocities = np.zeros_like(positions) if wants_velocities else None
+        times, cells, without = [], [], []  # without: chosen frames that have no velocities
         for k, ts in enumerate(trajectory[read.start:read.stop:read.step]):
             positions[k] = _positions_of_group(group, atoms, ts.frame)
-            if velocities is not None and ts.has_velocities:
-                velocities[k] = group.velocities
-            elif velocities is not None:
-                warn([f"AtomGroup: velocities are differences of frames, because frame {ts.frame} has no velocities"])
-                velocities = None
+            if wants_velocities and ts.frame in chosen:
+                if ts.has_velocities:
+                    velocities[k] = group.velocities
+                else:
+                    without.append(ts.frame)
             if _has_times(trajectory):
                 times.append(ts.time)
             if has_cell:
                 cells.extend(np.zeros(6) if ts.dimensions is None else np.asarray(ts.dimensions, dtype=float))
+    if without:
+        velocities = None
+    if 0 < len(without) < len(chosen):
+        warn([f"AtomGroup: velocities are differences of frames, because frame {without[0]} has no velocities"])
     beads.times, beads.cells = times, cells
     beads.first_frame, beads.frame_step = read.start, read.step
     return positions, chosen.step // read.step, velocities
@@ -412,8 +417,8 @@ def open_input(source, *, start=None, stop=None, step=None, units=None, necklace
     if is_atom_group(source):
         if velocities is not None and not isinstance(velocities, str):
             raise InputError("velocities: an AtomGroup has its own; expected 'file' or 'differences'")
-        motions = [(options or {}).get(name) for name in ("motion", "motions")]
-        wants_velocities = velocities != "differences" and "hermite" in str(motions)
+        motions = _text([(options or {}).get(name) for name in ("motion", "motions")]).split(",")
+        wants_velocities = velocities != "differences" and "hermite" in motions
         beads, more, frames = _open_group(source, chosen_of, pull, wants_elements, wants_velocities, necklaces, groups)
     elif is_mdtraj(source):
         beads, more, frames = _open_mdtraj(source, chosen_of, wants_elements, necklaces, groups,

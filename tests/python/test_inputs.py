@@ -615,6 +615,34 @@ class Velocities(unittest.TestCase):
                 with self.assertRaisesRegex(kds.InputError, "velocities: an AtomGroup has its own"):
                     self.run_of(group, velocities=self.velocities)
 
+    @needs("MDAnalysis")
+    def test_frames_without_velocities(self):
+        import MDAnalysis
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.trr")
+            with MDAnalysis.Writer(path, n_atoms=30) as writer, warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                for k in range(6):  # in a cell; frames 1 and 4 have velocities
+                    frame = MDAnalysis.Universe.empty(30, trajectory=True, velocities=k % 3 == 1)
+                    frame.atoms.positions, frame.trajectory.ts.time = self.positions[k], self.times[k]
+                    frame.dimensions = [100, 100, 100, 90, 90, 90]
+                    if k % 3 == 1:
+                        frame.atoms.velocities = self.velocities[k]
+                    writer.write(frame.atoms)
+            group = MDAnalysis.Universe.empty(30, trajectory=True)
+            group.load_new(path)
+            for chosen, velocities, lacks in (({"start": 1, "step": 3}, "file", None), ({}, "differences", 0),
+                                              ({"step": 2}, "differences", 0), ({"step": 3}, "differences", None)):
+                with warnings.catch_warnings(record=True) as caught:
+                    warnings.simplefilter("always")
+                    found = self.run_of(group.atoms, **chosen)
+                words = [str(one.message) for one in caught if "velocities" in str(one.message)]
+                self.assertEqual(words, [] if lacks is None else [
+                    f"AtomGroup: velocities are differences of frames, because frame {lacks} has no velocities"])
+                self.assertEqual(found.summary["input"]["velocities"], velocities)
+                self.assertEqual(found.fingerprint, self.run_of(path, **chosen).fingerprint)
+
 
 if __name__ == "__main__":
     unittest.main()
