@@ -1,8 +1,8 @@
 """Makes the replicas of spacing.py: molecular dynamics at 2 fs, each step written with velocities as TRR.
 
-  peptide  met-enkephalin in 640 waters, by LAMMPS from its example `peptide` (Debian: lammps, lammps-examples). Kept are the
+  peptide  met-enkephalin in 640 waters, by LAMMPS from its example `peptide` (Debian: lammps, lammps-examples). Keeps the
            backbone with its oxygens, and the waters that come within 4 angstrom of such an oxygen. About 3 minutes a replica
-  villin   villin headpiece HP36 (PDB entry 1VII) in about 2,100 waters, by GROMACS with amber99sb-ildn and TIP3P. Kept is the
+  villin   villin headpiece HP36 (PDB entry 1VII) in about 2,100 waters, by GROMACS with amber99sb-ildn and TIP3P. Keeps the
            backbone. About 4 minutes a replica
 
 Both have constant energy after an equilibration of 4 or 5 ps, and bonds to hydrogens of constant length. Replicas differ in the
@@ -20,7 +20,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 NEAR = 0.4  # nm
 PER_PS = 100  # of LAMMPS's unit angstrom/fs in nm/ps
-GRIDS = 2.0**20, 2.0**11  # places are rounded to 1e-6 nm and velocities to 5e-4 nm/ps, so that files compress
+GRIDS = 2.0**20, 2.0**11  # positions are rounded to 1e-6 nm and velocities to 5e-4 nm/ps, so that files compress
 MDP = """cutoff-scheme=Verlet
 coulombtype=PME
 rcoulomb=0.9
@@ -53,17 +53,17 @@ def read_dump(path):
     return bounds[1] - bounds[0], frames["atoms"]
 
 
-def write_trr(path, places, velocities, sides, spacing=0.002):
-    """Writes floats. Places (frames, atoms, 3) are in nm, velocities in nm/ps; `sides` are those of a rectangular cell."""
-    frames, atoms, _ = places.shape
+def write_trr(path, positions, velocities, sides, spacing=0.002):
+    """Writes floats. Positions (frames, atoms, 3) are in nm, velocities in nm/ps; `sides` are those of a rectangular cell."""
+    frames, atoms, _ = positions.shape
     of_part = atoms * 12
     word = np.frombuffer(b"GMX_trn_file", ">i4")
     head = np.array([1993, 13, 12, *word, 0, 0, 36, 0, 0, 0, 0, of_part, of_part, 0, atoms], ">i4")
     kind = np.dtype([("head", ">i4", len(head)), ("step", ">i4", 2), ("time", ">f4", 2), ("box", ">f4", (3, 3)),
-                     ("places", ">f4", (atoms, 3)), ("velocities", ">f4", (atoms, 3))])
+                     ("positions", ">f4", (atoms, 3)), ("velocities", ">f4", (atoms, 3))])
     content = np.zeros(frames, kind)
     content["head"], content["step"][:, 0], content["time"][:, 0] = head, np.arange(frames), np.arange(frames) * spacing
-    content["box"], content["places"], content["velocities"] = np.diag(sides), places, velocities
+    content["box"], content["positions"], content["velocities"] = np.diag(sides), positions, velocities
     path.write_bytes(content.tobytes())
 
 
@@ -80,10 +80,10 @@ def of_peptide(names, dump, path):
         apart -= side * np.round(apart / side)
         least = np.minimum(least, np.sqrt((apart**2).sum(2)).min(1))
     kept = [*backbone, *waters[least < NEAR]]
-    places = np.round(table[:, kept, 2:5] / 10 * GRIDS[0]) / GRIDS[0]
+    positions = np.round(table[:, kept, 2:5] / 10 * GRIDS[0]) / GRIDS[0]
     velocities = np.round(table[:, kept, 5:8] * PER_PS * GRIDS[1]) / GRIDS[1]
-    write_trr(path.with_suffix(".trr"), places, velocities, [side] * 3)
-    lines = [f"{names[k][:15]}{n + 1:5d}{''.join(f'{x:8.3f}' for x in places[0, n])}" for n, k in enumerate(kept)]
+    write_trr(path.with_suffix(".trr"), positions, velocities, [side] * 3)
+    lines = [f"{names[k][:15]}{n + 1:5d}{''.join(f'{x:8.3f}' for x in positions[0, n])}" for n, k in enumerate(kept)]
     heads = ["Met-enkephalin, capped: backbone, and waters that come near its oxygens", str(len(kept))]
     path.with_suffix(".gro").write_text("\n".join([*heads, *lines, f"{side:10.5f}" * 3]) + "\n")
 
@@ -125,17 +125,22 @@ def villin(folder, replica, given):
     (folder / "free.trr").unlink()
 
 
-parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("system", choices=("peptide", "villin"))
-parser.add_argument("folder", type=Path, help="where SYSTEM-REPLICA.trr and .gro are written")
-parser.add_argument("--replicas", type=int, default=8)
-parser.add_argument("--steps", type=int, default=10000)
-parser.add_argument("--fs", type=float, default=2, help="villin: the time step (default: 2)")
-parser.add_argument("--example", default="/usr/share/lammps/examples/peptide/data.peptide", type=Path)
-parser.add_argument("--pdb", type=Path, help="villin: PDB entry 1VII, one model")
-options = parser.parse_args()
-if options.system == "villin" and not options.pdb:
-    parser.error("villin needs --pdb")
-options.folder.mkdir(parents=True, exist_ok=True)
-for number in range(1, options.replicas + 1):
-    (peptide if options.system == "peptide" else villin)(options.folder, number, options)
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("system", choices=("peptide", "villin"))
+    parser.add_argument("folder", type=Path, help="where SYSTEM-REPLICA.trr and .gro are written")
+    parser.add_argument("--replicas", type=int, default=5)
+    parser.add_argument("--steps", type=int, default=10000)
+    parser.add_argument("--fs", type=float, default=2, help="villin: the time step (default: 2)")
+    parser.add_argument("--example", default="/usr/share/lammps/examples/peptide/data.peptide", type=Path)
+    parser.add_argument("--pdb", type=Path, help="villin: PDB entry 1VII, one model")
+    given = parser.parse_args()
+    if given.system == "villin" and not given.pdb:
+        parser.error("villin needs --pdb")
+    given.folder.mkdir(parents=True, exist_ok=True)
+    for number in range(1, given.replicas + 1):
+        (peptide if given.system == "peptide" else villin)(given.folder, number, given)
+
+
+if __name__ == "__main__":
+    main()

@@ -21,7 +21,7 @@ KDS, DATA, FOLDER = sys.argv[1], Path(sys.argv[2]) / "trajectories", Path(sys.ar
 
 
 def read_trr(path):
-    """Returns the side of the cubic cell and places (frames, atoms, 3) in angstrom of a file whose frames have equal size."""
+    """Returns the side of the cubic cell and positions (frames, atoms, 3) in angstrom of a file whose frames have equal size."""
     content = gzip.open(path).read()
     atoms, step = int.from_bytes(content[64:68], "big"), 84 + 36 + 24 * int.from_bytes(content[64:68], "big")
     frames = numpy.frombuffer(content, numpy.uint8).reshape(-1, step)
@@ -47,11 +47,11 @@ def crossings(apart, side, cutoff):
 
 def recompute(stride, cutoff):
     topology = [line[10:15].strip() for line in (DATA / "peptide_2fs.gro").read_text().splitlines()[2:-1]]
-    side, places = read_trr(DATA / "peptide_2fs.trr.gz")
-    places, found = places[::stride], {}
+    side, positions = read_trr(DATA / "peptide_2fs.trr.gz")
+    positions, found = positions[::stride], {}
     for water in (k for k, name in enumerate(topology) if name == "OW"):
         for oxygen in (k for k, name in enumerate(topology) if name == "O"):
-            begins, ends = crossings(places[:, water] - places[:, oxygen], side, cutoff)
+            begins, ends = crossings(positions[:, water] - positions[:, oxygen], side, cutoff)
             for begin, end in zip(begins, ends):
                 found.setdefault((oxygen, water), []).append((begin, end))
     return found
