@@ -1,7 +1,7 @@
 """Bounding volumes of one necklace over the balanced tree that all hierarchies of kds share, and one search for all of them.
 
 Beads have the numbers 0 to n - 1, and nodes come after them in preorder, as kds returns them. All balls have one radius. All
-volumes of a kind are arrays over beads, then nodes. They have `size`, by which the search decides what to split, and
+volumes of a kind are arrays over beads, then nodes. Each kind has `size`, by which the search decides what to split, and
 `apart(u, v)`, which returns for arrays of numbers whether volumes u and v are surely disjoint.
 """
 
@@ -82,14 +82,13 @@ class OrientedBoxes:
         return separated(*(part[u] for part in self.boxes), *(part[v] for part in self.boxes))
 
 
-def search(tree, volumes, positions, radius, by_beads=False):
+def search(tree, volumes, positions, radius):
     """Finds the pairs of beads that meet and are at least 2 apart along the chain.
 
-    Begins with the two halves of each node. If the volumes of a pair are not apart, the larger one is split, or with `by_beads`
-    the one with more beads; the first one of equal ones. Two beads are compared by their balls. Returns the number of disjoint
-    pairs, which is the size of the separating family, the number of pairs that were compared, and the pairs that meet.
+    Begins with the two halves of each node. If the volumes of a pair are not apart, the larger one is split, the first one of
+    equal ones. Two beads are compared by their balls. Returns the number of disjoint pairs, which is the size of the separating
+    family, the number of pairs that were compared, and the pairs that meet.
     """
-    size = tree.last - tree.first if by_beads else volumes.size
     u, v = tree.children.T
     family = compared = 0
     meeting = []
@@ -105,7 +104,7 @@ def search(tree, volumes, positions, radius, by_beads=False):
         family += int(apart.sum())
         meeting.append(np.stack([u, v], axis=1)[beads & ~apart])
         u, v = u[~beads & ~apart], v[~beads & ~apart]
-        first = (v < tree.beads) | ((u >= tree.beads) & (size[u] >= size[v]))
+        first = (v < tree.beads) | ((u >= tree.beads) & (volumes.size[u] >= volumes.size[v]))
         (left, right), (low, high) = tree.halves(u[first]), tree.halves(v[~first])
         u, v = np.concatenate([left, right, u[~first], u[~first]]), np.concatenate([v[first], v[first], low, high])
     pairs = np.concatenate(meeting)
@@ -139,6 +138,11 @@ def search_along(edges, positions, radius):
     return len(compared), np.array(meeting, int).reshape(-1, 2)
 
 
+def spanner_unit(positions):
+    """Returns the scale of level 0 of the spanner that kds builds at these positions (spanner.h)."""
+    return 2.0**(np.floor(np.log2(np.ptp(positions, axis=0).max())) - 30)
+
+
 def search_spanner(elements, positions, radius):
     """Finds the same pairs in the spanner that kds has built at these positions. `elements` are its edges and centres.
 
@@ -146,7 +150,7 @@ def search_spanner(elements, positions, radius):
     joined, or equal, at the first level where 2 radii and 4 scales are at most SPANNER_REACH scales. The search begins with all
     pairs there, goes down to their children, and leaves out pairs that are too far apart. Returns as search_along does.
     """
-    unit = 2.0**(np.floor(np.log2(np.ptp(positions, axis=0).max())) - 30)  # the scale of level 0 (spanner.h)
+    unit = spanner_unit(positions)
     is_edge = elements[:, 1] >= 0
     beads, _, parents, tops = elements[~is_edge, :4][np.argsort(elements[~is_edge, 0])].T
     level = max(0, int(np.ceil(np.log2(2 * radius / ((SPANNER_REACH - 4) * unit)))))

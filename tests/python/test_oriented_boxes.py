@@ -15,7 +15,7 @@ except ImportError:
 else:
     sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "experiments" / "paper"))
     from oriented_boxes import oriented_boxes, separated
-    from volumes import OrientedBoxes, Slabs, Spheres, Tree, search, search_along, search_spanner
+    from volumes import SPANNER_REACH, OrientedBoxes, Slabs, Spheres, Tree, search, search_along, search_spanner, spanner_unit
 
 RADIUS = 1.4
 
@@ -92,8 +92,7 @@ class Boxes(unittest.TestCase):
             volumes += [Slabs(tree, positions, RADIUS, k) for k in (3, 7, 13)]
             volumes += [OrientedBoxes(tree, positions, RADIUS, tight) for tight in (False, True)]
             for one in volumes:
-                for by_beads in (False, True):
-                    self.assertEqual(search(tree, one, positions, RADIUS, by_beads)[2].tolist(), expected.tolist())
+                self.assertEqual(search(tree, one, positions, RADIUS)[2].tolist(), expected.tolist())
             if beads == 3:
                 continue
             for radius in (RADIUS, 9):  # the search in the spanner begins at the beads, or at a level above them
@@ -106,6 +105,17 @@ class Boxes(unittest.TestCase):
     def test_counts_of_spheres_are_those_of_kds(self):
         positions, tree = chain(150, 10), Tree(150)
         for hierarchy, build in (("wrapped", kds.wrapped_hierarchy), ("layered", kds.layered_hierarchy)):
-            for rule in ("larger sphere", "more beads"):
-                found = search(tree, Spheres(build, positions, RADIUS), positions, RADIUS, rule == "more beads")
-                self.assertEqual(found[:2], kds.separating_family(positions, RADIUS, hierarchy=hierarchy, rule=rule)[:2])
+            found = search(tree, Spheres(build, positions, RADIUS), positions, RADIUS)
+            self.assertEqual(found[:2], kds.separating_family(positions, RADIUS, hierarchy=hierarchy, rule="larger sphere")[:2])
+
+    def test_scales_of_the_spanner_are_those_of_kds(self):
+        for seed in (11, 12):
+            positions = chain(150, seed)
+            elements = kds.run(positions[None].repeat(2, axis=0), radius=1, structures="spanner").spanner.elements(0)
+            is_edge = elements[:, 1] >= 0
+            tops = elements[~is_edge, 3][np.argsort(elements[~is_edge, 0])]
+            first, second = np.triu_indices(150, 1)
+            scales = spanner_unit(positions) * 2.0**np.minimum(tops[first], tops[second])
+            near = np.linalg.norm(positions[first] - positions[second], axis=1) <= SPANNER_REACH * scales
+            self.assertEqual(elements[is_edge, :2].tolist(), np.stack([first[near], second[near]], axis=1).tolist())
+            self.assertTrue(0 < near.sum() < len(near))
