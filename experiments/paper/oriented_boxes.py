@@ -1,10 +1,10 @@
 """Oriented boxes over a chain, refitted at frames.
 
 Chain trees are by Lotan, Schwarzer, Halperin and Latombe, Algorithm and data structures for efficient energy maintenance
-during Monte Carlo simulation of proteins (2004). Few torsions change in a step of theirs. Here all beads move, so each frame
-refits all nodes: a node's box holds the boxes of its two children, or with `tight` the balls of its beads. Its axes are those
-of a child, or the principal axes of its beads and of one more bead at each end: whichever give the smallest box that holds the
-children's boxes. So boxes turn with the molecule.
+during Monte Carlo simulation of proteins (2004). In their simulations few torsions change per step. Here all beads move,
+so each frame refits all nodes: a node's box holds the boxes of its two children, or with `tight` the balls of its beads. Three
+sets of axes are tried: those of each child, and the principal axes of its beads and of one more bead at each end. The axes with
+the smallest box that holds the children's boxes are taken. So boxes turn with the molecule.
 
 Boxes are centres (..., 3), axes (..., 3, 3) as columns, and halves of the sides (..., 3).
 """
@@ -55,7 +55,8 @@ def oriented_boxes(tree, frames, radius, tight=False):
 def separated(centers, axes, halves, other_centers, other_axes, other_halves):
     """Returns whether one of the 15 axes of the separating-axis test divides two boxes, for arrays of boxes (boxes, ...).
 
-    Gottschalk, Lin and Manocha, OBBTree (1996). Rounding can hide that two boxes are disjoint, but not that they meet.
+    Gottschalk, Lin and Manocha, OBBTree (1996). Rounding can hide that two boxes are disjoint, but not that they meet
+    (coordinates below 1e5).
     """
     turn = np.swapaxes(axes, 1, 2) @ other_axes
     apart = np.einsum("nij,ni->nj", axes, other_centers - centers)
