@@ -1,4 +1,4 @@
-"""Structures for collision detection of one chain, counted at one definition.
+"""Structures for collision detection of one chain, counted alike.
 
 All hierarchies have the same balanced tree over the chain and the same search (volumes.py): pairs of beads at least 2 apart,
 the two halves of each node first, and then the larger volume is split. Diagrams are searched along their edges. Columns:
@@ -12,8 +12,8 @@ the two halves of each node first, and then the larger volume is split. Diagrams
   pairs         pairs of nodes or beads that a search compares, mean over five frames
 
 Events, family and pairs of structures that depend on the axes are means over ten random rotations, with Student's 95% interval
-(fits.py). For the others the counts in all rotations must be equal; events are then those of the first four steps, and pairs
-those of the first frame. The default form takes three minutes on 2 cores.
+(fits.py). For the others the counts in all rotations must be equal: events of the first four steps at the largest radius, and
+pairs in the first frame at all radii. The default form takes three minutes on 2 cores.
 """
 
 import functools
@@ -23,6 +23,7 @@ import kds.reading
 import numpy as np
 from common import Report, save, subplots
 from fits import mean_interval
+from scipy.spatial.transform import Rotation
 from subjects import half_longest_bond
 from volumes import OrientedBoxes, Slabs, Spheres, Tree, layered_states, search, search_along, search_spanner
 
@@ -36,14 +37,9 @@ STYLES = {"wrapped": ("#2f6ea5", "o"), "layered": ("#8fb8de", "o"), "boxes": ("#
           "26-DOPs": ("#7a5c1e", "h"), "oriented boxes": ("#9aa5b1", "D"), "tight oriented boxes": ("#52606d", "D"),
           "power": ("#3b8a5a", "^"), "dual": ("#1f2933", "v"), "spanner": ("#a23b72", "P")}
 REFITTED = "layered", "oriented boxes", "tight oriented boxes"
-
-
-def rotations(count, seed=1):
-    """Returns random rotations, uniformly distributed, as matrices."""
-    w, x, y, z = (q := np.random.default_rng(seed).normal(size=(4, count))) / np.linalg.norm(q, axis=0)
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]).transpose(2, 0, 1)
+CLAIMS = {"same_pairs": "All searches find the pairs that kds.colliding_pairs finds",
+          "same_turned": "Counts of all but boxes and k-DOPs are equal in all rotations (events: at the largest radius)",
+          "same_events": "Events of wrapped and power do not depend on the radius"}
 
 
 def slab_counts(frames, measure="events", **options):
@@ -94,61 +90,51 @@ def other_searches(tree, positions, radius):
         "spanner": (None, *spanner)}
 
 
-class Trajectory:
-    """The rows of one trajectory."""
+def count_all(frames, spacing, radii, turns, at):
+    """Counts all structures on one trajectory. `turns` are rotations, and `at` the frames of searches. Returns its rows, the
+    verdict on each claim, and how often a node of the layered hierarchy changes which child holds the other at a frame."""
+    frames, tree = np.ascontiguousarray(frames), Tree(frames.shape[1])
+    turned = [np.ascontiguousarray(frames @ turn.T) for turn in turns]
+    beads, steps, time = tree.beads, len(frames) - 1, spacing * (len(frames) - 1)
+    rows, holds = [], dict.fromkeys(CLAIMS, True)
 
-    def __init__(self, frames, spacing, radii, turns, at):
-        self.frames, self.at = np.ascontiguousarray(frames), at
-        self.tree = Tree(frames.shape[1])
-        self.times = spacing * np.arange(len(frames))
-        self.rows, self.same_pairs, self.same_turned, self.same_events = [], True, True, True
-        self.turned = [np.ascontiguousarray(self.frames @ turn.T) for turn in turns]
-        turned_counts = [slab_counts(one, radius=1) for one in self.turned]
-        certificates = slab_counts(self.frames[:3], "certificates", radius=1, kernel="exact")
-        events = slab_counts(self.frames, radius=1) | other_counts(self.frames, radius=radii[0])
-        for radius in radii:
-            if radius != radii[0]:
-                again = counts(kds.run(self.frames, radius=radius, structures=["wrapped", "power", "dual"]))
-                self.same_events &= all(again[name] == events[name] for name in ("wrapped", "power"))
-                events |= again
-            most = certificates | other_counts(self.frames[:3], "certificates", radius=radius, kernel="exact")
-            self.add(radius, events, turned_counts, most)
-        few = other_counts(self.frames[:5], radius=radius)
-        self.same_turned &= all(other_counts(one[:5], radius=radius) == few for one in self.turned)
-
-    def searches(self, frames, radius, kinds):
+    def searches(frames, radius, kinds):
         """Returns family and compared pairs of each structure, means over frames. Checks that the pairs that meet are right."""
         found = []
         for positions in frames:
-            one = {name: result for kind in kinds for name, result in kind(self.tree, positions, radius).items()}
+            one = {name: result for kind in kinds for name, result in kind(tree, positions, radius).items()}
             meeting = kds.colliding_pairs(positions, radius)
-            self.same_pairs &= all(np.array_equal(pairs, meeting) for _, _, pairs in one.values())
+            holds["same_pairs"] &= all(np.array_equal(pairs, meeting) for _, _, pairs in one.values())
             found.append({name: (family, compared) for name, (family, compared, _) in one.items()})
         return {name: [None if values[0] is None else float(np.mean(values)) for values in zip(*(one[name] for one in found))]
                 for name in found[0]}
 
-    def add(self, radius, events, turned_counts, certificates):
-        found = self.searches(self.frames[self.at], radius, (slab_searches, other_searches))
-        first = self.searches(self.frames[:1], radius, (other_searches,))
-        self.same_turned &= all(self.searches(one[:1], radius, (other_searches,)) == first for one in self.turned)
-        turned = [self.searches(one[self.at], radius, (slab_searches,)) for one in self.turned]
-        beads, time = self.tree.beads, float(self.times[-1])
-        for name, (family, compared) in found.items():
-            refits = name in REFITTED
-            total = (beads - 1) * (len(self.frames) - 1) if refits else events[name]
+    slab_events = [slab_counts(one, radius=1) for one in turned]
+    slab_certificates = slab_counts(frames[:3], "certificates", radius=1, kernel="exact")
+    events = slab_counts(frames, radius=1) | other_counts(frames, radius=radii[0])
+    for radius in radii:
+        if radius != radii[0]:
+            again = counts(kds.run(frames, radius=radius, structures=["wrapped", "power", "dual"]))
+            holds["same_events"] &= all(again[name] == events[name] for name in ("wrapped", "power"))
+            events |= again
+        certificates = slab_certificates | other_counts(frames[:3], "certificates", radius=radius, kernel="exact")
+        first = searches(frames[:1], radius, (other_searches,))
+        holds["same_turned"] &= all(searches(one[:1], radius, (other_searches,)) == first for one in turned)
+        slabs = [searches(one[at], radius, (slab_searches,)) for one in turned]
+        for name, (family, compared) in searches(frames[at], radius, (slab_searches, other_searches)).items():
+            total = (beads - 1) * steps if name in REFITTED else events[name]
             row = {"structure": name, "beads": beads, "radius": radius, "events": total, "events_per_ps": total / time,
                    "certificates": certificates.get(name), "family": family, "pairs": compared}
             if name in SLABS:
-                for column, values in (("events_per_ps", [one[name] / time for one in turned_counts]),
-                                       ("family", [one[name][0] for one in turned]),
-                                       ("pairs", [one[name][1] for one in turned])):
+                for column, values in (("events_per_ps", [one[name] / time for one in slab_events]),
+                                       ("family", [one[name][0] for one in slabs]),
+                                       ("pairs", [one[name][1] for one in slabs])):
                     row[column + "_turned"], row[column + "_lower"], row[column + "_upper"] = mean_interval(values)
-            self.rows.append(row)
-
-    def layered_changes(self):
-        """Returns how many nodes of the layered hierarchy change from frame to frame in which child holds the other one."""
-        states = np.array([layered_states(self.tree, positions) for positions in self.frames])
-        return int((states[1:] != states[:-1]).sum())
+            rows.append(row)
+    few = other_counts(frames[:5], radius=radii[-1])
+    holds["same_turned"] &= all(other_counts(one[:5], radius=radii[-1]) == few for one in turned)
+    states = np.array([layered_states(tree, positions) for positions in frames])
+    return rows, holds, int((states[1:] != states[:-1]).sum())
 
 
 def mean(row, column):
@@ -161,9 +147,9 @@ def draw(found, path):
     from matplotlib import ticker
 
     figure, every = subplots(2, 2, figsize=(9, 8), sharex=True)
-    for axes, (name, one) in zip(every.flat, found.items()):
+    for axes, (name, (counted, *_)) in zip(every.flat, found.items()):
         for structure, (color, mark) in STYLES.items():
-            rows = [row for row in one.rows if row["structure"] == structure]
+            rows = [row for row in counted if row["structure"] == structure]
             refits = structure in REFITTED
             axes.plot([mean(row, "pairs") / row["beads"] for row in rows],
                       [mean(row, "events_per_ps") / row["beads"] for row in rows], color=color, marker=mark, markersize=6,
@@ -184,23 +170,22 @@ def draw(found, path):
 
 
 def measure(data, short):
-    """Returns the trajectories by name."""
-    found = {}
+    """Returns by the name of a trajectory what count_all returns."""
+    found, turns = {}, Rotation.random(2 if short else 10, random_state=1).as_matrix()
     for name, (file, topology, spacing) in list(INPUTS.items())[: 1 if short else None]:
         files = data / "trajectories"
         frames = kds.reading.positions(files / file, files / topology if topology else None)[: 20 if short else None]
         radii = [half_longest_bond(frames), *(RADII[1:2] if short else RADII)]
         at = [0] if short else np.linspace(0, len(frames) - 1, 5).astype(int)
-        found[name] = Trajectory(np.array(frames, float), spacing, radii, rotations(2 if short else 10), at)
+        found[name] = count_all(np.array(frames, float), spacing, radii, turns, at)
     return found
 
 
 def main():
     report = Report(__doc__)
     found = measure(report.data, report.short)
-    for name, one in found.items():
-        report.results["rows"] += [{"row": f"{name}, radius {row['radius']:.3g}, {row['structure']}", **row}
-                                   for row in one.rows]
+    report.results["rows"] = [{"row": f"{name}, radius {row['radius']:.3g}, {row['structure']}", **row}
+                              for name, (rows, *_) in found.items() for row in rows]
     columns = "events_per_ps", "family", "pairs"
     report.show(["radius in angstrom", "events / ps", "family", "pairs", "events / ps bead", "certificates", "pairs / bead"],
                 [[row["row"], *(mean(row, column) for column in columns), mean(row, "events_per_ps") / row["beads"],
@@ -208,12 +193,10 @@ def main():
     report.show(["in random rotations", *(f"{column} {end}" for column in columns for end in ("from", "to"))],
                 [[row["row"], *(row[f"{column}_{end}"] for column in columns for end in ("lower", "upper"))]
                  for row in report.results["rows"] if row["structure"] in SLABS])
-    for claim, words in (("same_pairs", "All searches find the pairs that kds.colliding_pairs finds"),
-                         ("same_turned", "Counts of all structures but boxes and k-DOPs are equal in all rotations"),
-                         ("same_events", "Events of wrapped and power do not depend on the radius")):
-        report.claim(claim, words, all(getattr(one, claim) for one in found.values()), f"{len(found)} trajectories")
-    changes = {name: one.layered_changes() for name, one in found.items()}
-    report.results["layered_changes"] = changes
+    for claim, words in CLAIMS.items():
+        report.claim(claim, words, all(holds[claim] for _, holds, _ in found.values()), f"{len(found)} trajectories")
+    changes = {name: changed for name, (_, _, changed) in found.items()}
+    report.results["rows"] += [{"row": f"{name}, layered nodes", "changes": count} for name, count in changes.items()]
     report.say("  Changes of layered nodes at frames: " + ", ".join(f"{name} {count}" for name, count in changes.items()) + ".")
     report.finish()
 
