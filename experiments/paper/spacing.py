@@ -106,18 +106,18 @@ def draw(table, picture):
     size = {"figsize": (5 * len(lines), 4.2), "layout": "constrained"}
     figure, panels = subplots(1, len(lines), squeeze=False, sharey=True, **size)
     for axes, (system, measures) in zip(panels[0], lines.items()):
-        if axes is panels[0][-1]:
-            for line, words in (LINES[motion] for motion in next(iter(measures.values()))):
-                axes.plot([], [], line, color="#9aa5b1", label=words)
         for name, motions in measures.items():
             for motion, rows in motions.items():
                 x, y, low, high = ([float(row[key] or row["mean"]) for row in rows] for key in ("fs", "mean", "from", "to"))
                 axes.plot(x, y, LINES[motion][0], color=COLORS[name], linewidth=1.2, label=name if motion == "linear" else None)
                 axes.fill_between(x, low, high, color=COLORS[name], alpha=0.15, linewidth=0)
-        axes.set(xscale="log", xticks=x, xticklabels=[f"{one:.0f}" for one in x], ylim=(0, 1.05), title=system,
+        axes.set(xscale="log", xticks=x, xticklabels=[f"{one:.0f}" for one in x], ylim=(0, 1.37), title=system,
                  xlabel="frames apart (fs)")
         axes.minorticks_off()
-        axes.legend(frameon=False, loc="upper right" if axes is panels[0][-1] else "lower left")
+        axes.legend(frameon=False, loc="lower left")
+    lines = [pyplot.Line2D([], [], linestyle=line, color="#9aa5b1", label=words) for line, words in LINES.values()]
+    axes.add_artist(axes.get_legend())
+    axes.legend(handles=lines, frameon=False, loc="upper right")
     panels[0][0].set_ylabel("number / number of cubics at 2 fs")
     save(figure, picture)
 
