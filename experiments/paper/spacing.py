@@ -1,11 +1,11 @@
 """Below which spacing of frames do counts stop changing?
 
-Reads runs of molecular dynamics that were written at every step of 2 fs, and then every 2nd, 4th, 8th ... frame of them. Counts
+Reads runs of molecular dynamics that were written at every step of 2 fs, and then every 2nd, 4th, 8th frame and so on. Counts
 contacts, basis changes and flips on paths between these frames: straight ones (linear), and Hermite cubics with velocities from
 differences of frames (differences) or with those of the simulation (velocities). Each value is divided by that of cubics from
-differences at 2 fs in the same run. Means over runs have Student's 95% interval. `missed` is the share of contacts that contain
-no frame, of those of straight paths at 2 fs. Exponents say how fast a number falls with the spacing: it is a power law if they
-are equal in all ranges.
+differences at 2 fs in the same run. Means over runs have Student's 95% interval. `least runs` says how many runs have a value.
+`missed` is the share of contacts that contain no frame, of those of straight paths at 2 fs. Exponents say how fast a number
+falls with the spacing: it is a power law if they are equal in all ranges.
 
 By default reads the run in data/trajectories, 3 ps of a peptide in water; a single run has no interval. simulate.py makes more
 and longer runs; --runs takes them in half a minute each.
@@ -116,7 +116,7 @@ def draw(table, picture):
         axes.minorticks_off()
         axes.legend(frameon=False, loc="lower left")
     lines = [pyplot.Line2D([], [], linestyle=line, color="#9aa5b1", label=words) for line, words in LINES.values()]
-    axes.add_artist(axes.get_legend())
+    axes.add_artist(axes.get_legend())  # the last panel has two
     axes.legend(handles=lines, frameon=False, loc="upper right")
     panels[0][0].set_ylabel("number / number of cubics at 2 fs")
     save(figure, picture)
@@ -154,12 +154,15 @@ def main():
         for (measured, motion), row in values.items():
             report.results["rows"].append({"row": f"{name}, {measured}, {motion}", **row})
             scale = 1 if motion == "frames" else values[measured, "differences"][f"fs_{fs}"]
-            found.setdefault((system, measured, motion), []).append([value and value / scale for value in row.values()])
+            found.setdefault((system, measured, motion), []).append(
+                [value / scale if value is not None and scale else None for value in row.values()])
             if ": " not in measured:
                 rates.setdefault((system, measured, motion), []).append([value / time for value in row.values()])
-    means = [(*key, spacing, float(np.mean(rate)) if rate else None, *mean_of(values)) for key, runs in found.items()
-             for spacing, rate, *values in zip(spacings, zip(*rates[key]) if key in rates else [()] * len(spacings), *runs)]
-    report.results["means"] = means
+    report.results["means"] = means = []
+    for key, runs in found.items():
+        for k, spacing in enumerate(spacings):
+            rate = float(np.mean([run[k] for run in rates[key]])) if key in rates else None
+            means.append((*key, spacing, rate, *mean_of([run[k] for run in runs])))
     report.show((f"by cubics at {fs} fs", "per ps", "least runs", *(f"{spacing} fs" for spacing in spacings)), [
         (", ".join(key), rows[0][4], min(row[5] for row in rows), *(row[6] for row in rows))
         for key in found if (rows := [row for row in means if row[:3] == key])])
