@@ -8,7 +8,7 @@ differences at 2 fs in the same run. Means over runs have Student's 95% interval
 falls with the spacing: it is a power law if they are equal in all ranges.
 
 By default reads the run in data/trajectories, 3 ps of a peptide in water; a single run has no interval. simulate.py makes more
-and longer runs; --runs takes them in half a minute each.
+and longer runs; --runs takes them in a minute each.
 """
 
 import csv
@@ -115,9 +115,9 @@ def draw(table, picture):
                  xlabel="frames apart (fs)")
         axes.minorticks_off()
         axes.legend(frameon=False, loc="lower left")
-    lines = [pyplot.Line2D([], [], linestyle=line, color="#9aa5b1", label=words) for line, words in LINES.values()]
+    motions = [axes.plot([], [], line, color="#9aa5b1", label=words)[0] for line, words in LINES.values()]
     axes.add_artist(axes.get_legend())  # the last panel has two
-    axes.legend(handles=lines, frameon=False, loc="upper right")
+    axes.legend(handles=motions, frameon=False, loc="upper right")
     panels[0][0].set_ylabel("number / number of cubics at 2 fs")
     save(figure, picture)
 
