@@ -69,6 +69,11 @@ class Report:
         given = parser.parse_args()
         if not given.data.is_dir():
             parser.error(f"--data: {given.data} is no folder; expected the project's data folder")
+        if not (given.data / "trajectories").is_dir():
+            parser.error(f"--data: {given.data} has no folder trajectories; expected the project's data folder")
+        for name, path in vars(given).items():
+            if name in ("json", "csv") and path not in (None, "-") and (Path(path).is_dir() or not Path(path).parent.is_dir()):
+                parser.error(f"--{name}: cannot write {path}; expected a file in a folder that exists")
         self.short, self.data, self.json, self.given = given.short, given.data, given.json, given
         self.rounds = 1 if self.short else 5
         self.out = sys.stderr if self.json == "-" else sys.stdout

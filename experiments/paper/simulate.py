@@ -135,6 +135,8 @@ def main():
     parser.add_argument("--example", default="/usr/share/lammps/examples/peptide/data.peptide", type=Path)
     parser.add_argument("--pdb", type=Path, help="villin: PDB entry 1VII, one model")
     given = parser.parse_args()
+    if given.replicas < 1 or given.steps < 1 or not 0 < given.fs < 100:
+        parser.error("--replicas, --steps and --fs: expected 1 or more, and a time step above 0")
     if given.system == "villin" and not given.pdb:
         parser.error("villin needs --pdb")
     given.folder.mkdir(parents=True, exist_ok=True)

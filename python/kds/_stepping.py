@@ -71,7 +71,8 @@ class KineticRun:
         self = cls.__new__(cls)
         check_names(KineticRun.pushed, options)
         for name in _NOT_PUSHED:
-            if options.pop(name, None):
+            given = options.pop(name, None)
+            if given is not None and given is not False:
                 raise InputError(f"{name}: is for inputs that have their frames; frames are pushed as they are")
         beads = whole("beads", beads, 1)
         radii = [] if radius is None else np.ravel(numbers("radius", radius)).tolist()

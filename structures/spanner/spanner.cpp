@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
 
 namespace kds {
@@ -73,8 +74,10 @@ typename Spanner<D>::Table& Spanner<D>::table(Length length, int level) {
 
 template <int D>
 void Spanner<D>::set_constants(std::size_t table) {
-  const double times = table % 2 == 0 ? reach_ : 1;
-  tables_[table]->set_constants({.length = std::ldexp(times * unit_, static_cast<int>(table / 2))});
+  const double length = std::ldexp((table % 2 == 0 ? reach_ : 1) * unit_, static_cast<int>(table / 2));
+  if (!std::isfinite(length))
+    throw InputError("spanner: its lengths exceed the largest double; scale the coordinates down");
+  tables_[table]->set_constants({.length = length});
 }
 
 template <int D>

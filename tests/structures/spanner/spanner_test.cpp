@@ -110,6 +110,12 @@ TEST(Spanner, RefusesAStretchOfOne) {
     EXPECT_THROW(SpannerRig<Space>(motion, AuditMode::none, stretch), std::invalid_argument) << stretch;
 }
 
+TEST(Spanner, RefusesLengthsBeyondDoubles) {
+  SpannerRig<Space> rig(moving({{-4e307, 0, 0}, {4e307, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}), AuditMode::none,
+                        3.0);
+  EXPECT_THROW(rig.run(), InputError);
+}
+
 template <Motion M>
 void try_random_motions(unsigned seed) {
   Random random(seed);
