@@ -104,7 +104,7 @@ class Spanner final : public EditableBase {
   static constexpr CertificateHandle none = CertificateHandle::violated;
   static constexpr int levels_below_extent = 30;
 
-  /// The lengths of a level i with which distances are c u 2^i and u 2^i.
+  /// The lengths of level i with which distances are compared: c u 2^i and u 2^i.
   enum class Length : std::uint8_t { reach, scale };
   struct Guard {
     CertificateHandle handle = none;
