@@ -37,6 +37,8 @@ struct LawStructure {
   std::size_t judge_every = 1;  ///< brute force judges every so many audits
   /// Larger scenes are left out, unless KDS_LAW_BEADS gives another limit.
   std::size_t most_beads = std::numeric_limits<std::size_t>::max();
+  /// The judge accepts every structure that ties allow, so it looks at the time of the audit itself.
+  bool accepts_ties = false;
 
   /// Returns the name of the row, for messages.
   [[nodiscard]] std::string title() const;

@@ -102,14 +102,17 @@ Beads all_beads(const Scene& scene) {
 }
 
 /// Calls `look` at every so many audits inside a step (`every`). `look` gets the balls at a slightly later
-/// time, because a structure may be degenerate at a single moment without an event.
+/// time, because a structure may be degenerate at a single moment without an event, or at that time if it
+/// accepts ties.
 class Judge final : public KineticStructure {
  public:
   using Look = std::function<std::optional<std::string>(const ExactBalls&)>;
 
   template <int Dimension>
-  Judge(Simulator& simulator, const MotionRef<Dimension>& motion, std::uint64_t every, Look look)
+  Judge(Simulator& simulator, const MotionRef<Dimension>& motion, std::uint64_t every, bool accepts_ties,
+        Look look)
       : every_(every),
+        accepts_ties_(accepts_ties),
         look_(std::move(look)),
         balls_([motion](const Dyadic& u) { return balls_at(motion.curves(), u); }) {
     static_cast<void>(simulator.add(*this));
@@ -122,12 +125,13 @@ class Judge final : public KineticStructure {
   void apply(const Change&) override {}
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override {
     if (time == Dyadic(0.0) || time == Dyadic(1.0) || audits_++ % every_ != 0) return std::nullopt;
-    return look_(balls_(Dyadic((time.numerator() << later) + 1, time.exponent() + later)));
+    return look_(
+        balls_(accepts_ties_ ? time : Dyadic((time.numerator() << 100U) + 1, time.exponent() + 100)));
   }
 
  private:
-  static constexpr unsigned later = 256;  // bits; events of one scene are 2^-199 apart
   std::uint64_t every_, audits_ = 0;
+  bool accepts_ties_;
   Look look_;
   std::function<ExactBalls(const Dyadic&)> balls_;
 };
@@ -216,10 +220,10 @@ class Subject {
         const Beads present = all_beads(scene_);
         const std::uint64_t every =
             row_.judge_every * (present.size() < 12 ? 1 : present.size() * present.size() / 16);
-        static_cast<void>(
-            run.add<Judge>(every, Judge::Look([this, &run, present](const ExactBalls& balls) {
-                             return row_.fault({scene_, subject(run), base_of(run), balls, present});
-                           })));
+        static_cast<void>(run.add<Judge>(
+            every, row_.accepts_ties, Judge::Look([this, &run, present](const ExactBalls& balls) {
+              return row_.fault({scene_, subject(run), base_of(run), balls, present});
+            })));
       }
       run.build();
       outcome.add_dumps(subject(run).dump(0));
