@@ -39,6 +39,8 @@ struct LawStructure {
   std::size_t most_beads = std::numeric_limits<std::size_t>::max();
   /// The judge accepts every structure that ties allow, so it looks at the time of the audit itself.
   bool accepts_ties = false;
+  /// False if audits take minutes for numbers of thousands of digits, in scenes that are not judged.
+  bool takes_long_numbers = true;
 
   /// Returns the name of the row, for messages.
   [[nodiscard]] std::string title() const;
