@@ -28,7 +28,7 @@ struct CellEnds {
   Cell start, end;
 };
 
-/// Where the velocities of Hermite curves come from.
+/// The source of the velocities of Hermite curves.
 enum class VelocitySource {
   differences,  ///< of the frames around
   file,
