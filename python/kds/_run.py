@@ -248,9 +248,9 @@ def run(source, *, verbose=False, view=None, **options):
     times : array
         The time of each frame in picoseconds, for arrays.
     velocities : str or array
-        Of Hermite motion: ``file`` (those of the frames), ``differences`` (of positions), or an array of the shape of the
-        positions, in their length per picosecond (default: ``file`` if all frames have
-        velocities and times, and these help).
+        The velocities of Hermite motion: ``file`` (those of the frames), ``differences`` (of positions), or an array of the
+        shape of the positions, in their length per picosecond (default: ``file`` if all frames have velocities and times, and
+        these help).
     groups : pair of AtomGroups, of arrays of beads, or of selections
         ``contacts``: one bead of a pair must be in each group. A selection is a text of MDAnalysis, of mdtraj or, for
         paths, of ``--select``.
