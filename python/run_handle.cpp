@@ -105,7 +105,10 @@ RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more,
     : memory_(std::move(memory)), options_(parse_run_options(arguments)), only_(more.only) {
   check_view(options_);
   const auto warn = [this](const std::string& warning) { warnings_.push_back(warning); };
-  scene_ = std::make_unique<Scene>(load_scene(options_, warn));
+  {
+    const Watch watch;  // a running simulation may let it wait
+    scene_ = std::make_unique<Scene>(load_scene(options_, warn));
+  }
   open();
 }
 
@@ -203,6 +206,7 @@ void RunHandle::execute(const py::object& progress) {
     watch.set_within(now < 1 ? now : 0);  // 1 between steps
   });
   parts ? run_steps(*parts, options_, at_frame) : run_steps(*run_, options_, at_frame);
+  for (const std::string& line : scene().live_warnings()) warn(line);
   is_behind_ = parts != nullptr;
   watch.end(steps);
   if (view_) view_->finish();
@@ -442,7 +446,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> RunHandle::structu
 
 std::string RunHandle::table(const py::object& progress) {
   if (!report_) throw std::logic_error("table(): the run has not been executed");
-  if (!has_static_times_) {
+  if (!has_static_times_ && !scene().is_live()) {
     Use use(*this, progress);
     std::vector<double> seconds;
     for (std::size_t frame = 0; frame < scene().frame_count(); ++frame) {

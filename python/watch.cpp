@@ -2,6 +2,8 @@
 
 #include <ctime>
 
+#include "motions/scene/live_frames.h"
+
 namespace kds::python {
 
 namespace py = pybind11;
@@ -53,7 +55,11 @@ void Watch::call() {
   next_ = Clock::time_point::max();  // the function may start a computation, which asks this watch too
   try {
     const py::gil_scoped_acquire gil;
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (PyErr_CheckSignals() != 0) {
+      if (!LiveFrames::any_open() || LiveEndRequest::is_set()) throw py::error_already_set();
+      PyErr_Clear();  // the first Ctrl-C ends the input and keeps what was seen
+      LiveEndRequest::set(true);
+    }
     if (progress_) progress_(done_, within_, total_);
   } catch (...) {
     raised_ = std::current_exception();

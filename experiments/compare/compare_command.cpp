@@ -70,6 +70,7 @@ const OptionList<CompareOptions>& compare_options() {
   static const auto list =
       OptionList<O>()
           .with(input_options().with({velocities_option()}))
+          .with(live_options())
           .with({list_option({"--structures", "LIST", structures_help}, &O::structures, parse_structures),
                  list_option({"--strides", "LIST",
                               "run over every frame, every second, every fourth: 1,2,4 (default: 1)"},
@@ -105,7 +106,8 @@ CompareOptions parse_compare_options(const Arguments& arguments) {
 int compare_command(const Arguments& arguments) {
   const CompareOptions options = parse_compare_options(arguments);
   TableCommand command("compare", arguments, options, "step");
-  check_inputs_exist(options);
+  check_inputs_exist(options, true);
+  const SignalsEndLiveInput on_signal(options);
   TakenPaths taken;
   taken.read(options);
   if (options.view) taken.write("--view", *options.view);
@@ -126,7 +128,7 @@ int compare_command(const Arguments& arguments) {
   json["rows"] = compare_columns(comparison).json(comparison.rows);
   json["warnings"] = command.warnings();
   command.deliver(json, compare_columns(comparison).csv(comparison.rows), compare_table(comparison));
-  return 0;
+  return is_live(options) && comparison.inputs.front().truncated ? 1 : 0;
 }
 
 }  // namespace kds

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <compare>
+#include <exception>
 #include <filesystem>
+#include <mutex>
 #include <numeric>
 #include <span>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "experiments/events/event_distribution.h"
@@ -16,6 +19,7 @@
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_scene.h"
 #include "motions/base/input_error.h"
+#include "motions/frames/frame_fan.h"
 
 namespace kds {
 
@@ -110,6 +114,25 @@ class InputNames {
   const CompareOptions& options_;
 };
 
+ComparedInput described(const RunOptions& run, const Scene& scene, const InputNames& names,
+                        std::size_t input) {
+  const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
+  ComparedInput found{input_name(run, 0),
+                      names.name(input),
+                      names.short_name(input),
+                      scene.bead_count(),
+                      scene.frame_count(),
+                      scene.dimension(),
+                      scene.is_truncated(),
+                      *least,
+                      *most};
+  const auto from = scene.stamp(0).picoseconds, to = scene.stamp(scene.frame_count() - 1).picoseconds;
+  if (from && to && scene.step_count() > 0)
+    found.frame_picoseconds = (*to - *from) / static_cast<double>(scene.step_count());
+  for (BeadId bead = 0; bead < scene.bead_count(); ++bead) found.bead_names.push_back(scene.bead_name(bead));
+  return found;
+}
+
 // Reads an input. Throws InputError for an unsuitable input before anything runs.
 ComparedInput look_at(const CompareOptions& options, std::size_t input, const InputNames& names,
                       const Warn& warn) {
@@ -127,23 +150,7 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const In
       if (options.inputs.size() == 1) throw;
       throw InputError(fmt::format("{}: {}", input_name(run, 0), error.what()));
     }
-    if (motion == options.motions.front()) {
-      const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
-      found = {input_name(run, 0),
-               names.name(input),
-               names.short_name(input),
-               scene.bead_count(),
-               scene.frame_count(),
-               scene.dimension(),
-               scene.is_truncated(),
-               *least,
-               *most};
-      const auto from = scene.stamp(0).picoseconds, to = scene.stamp(scene.frame_count() - 1).picoseconds;
-      if (from && to && scene.step_count() > 0)
-        found.frame_picoseconds = (*to - *from) / static_cast<double>(scene.step_count());
-      for (BeadId bead = 0; bead < scene.bead_count(); ++bead)
-        found.bead_names.push_back(scene.bead_name(bead));
-    }
+    if (motion == options.motions.front()) found = described(run, scene, names, input);
     if (scene.velocities()) found.velocities = scene.velocities();
   }
   if (strided(found.frames, options.strides.back()) < 2)
@@ -284,29 +291,45 @@ std::vector<EventCosts> costs_of_events(KineticRun& run, const std::function<voi
   return costs;
 }
 
-std::vector<CompareRow> measure_runs(const Scene& scene, const RunOptions& options, std::size_t rounds,
-                                     const std::function<void()>& step_done) {
-  std::vector<CompareRow> rows;
-  std::vector<std::vector<double>> seconds, at_events, worst;
-  for (std::size_t round = 0; round < rounds; ++round) {
-    std::vector<CompareRow> plain = run_once(scene, options, step_done);
-    const auto run = open_run(options, scene, AuditMode::none);
-    const std::vector<EventCosts> costs = costs_of_events(*run, step_done);
-    for (auto* const times : {&seconds, &at_events, &worst}) times->resize(plain.size());
+namespace {
+
+// The rows of the first round, with the times of all rounds.
+class RowsOfRounds {
+ public:
+  void add(std::vector<CompareRow> plain, const std::vector<EventCosts>& costs) {
+    for (auto* const times : {&seconds_, &at_events_, &worst_}) times->resize(plain.size());
     for (std::size_t s = 0; s < plain.size(); ++s) {
-      seconds[s].push_back(plain[s].structure.seconds);
-      at_events[s].push_back(costs[s].seconds);
-      worst[s].push_back(costs[s].seconds_most);
+      seconds_[s].push_back(plain[s].structure.seconds);
+      at_events_[s].push_back(costs[s].seconds);
+      worst_[s].push_back(costs[s].seconds_most);
       plain[s].costs = costs[s];
     }
-    if (round == 0) rows = std::move(plain);
+    if (rows_.empty()) rows_ = std::move(plain);
   }
-  for (std::size_t s = 0; s < rows.size(); ++s) {
-    rows[s].seconds = spread_of(seconds[s]);
-    rows[s].costs.seconds = median_of(at_events[s]);
-    rows[s].costs.seconds_most = *std::ranges::min_element(worst[s]);
+  [[nodiscard]] std::vector<CompareRow> rows() && {
+    for (std::size_t s = 0; s < rows_.size(); ++s) {
+      rows_[s].seconds = spread_of(seconds_[s]);
+      rows_[s].costs.seconds = median_of(at_events_[s]);
+      rows_[s].costs.seconds_most = *std::ranges::min_element(worst_[s]);
+    }
+    return std::move(rows_);
   }
-  return rows;
+
+ private:
+  std::vector<CompareRow> rows_;
+  std::vector<std::vector<double>> seconds_, at_events_, worst_;
+};
+
+}  // namespace
+
+std::vector<CompareRow> measure_runs(const Scene& scene, const RunOptions& options, std::size_t rounds,
+                                     const std::function<void()>& step_done) {
+  RowsOfRounds all;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    std::vector<CompareRow> plain = run_once(scene, options, step_done);
+    all.add(std::move(plain), costs_of_events(*open_run(options, scene, AuditMode::none), step_done));
+  }
+  return std::move(all).rows();
 }
 
 std::uint64_t CompareRow::internal() const {
@@ -431,8 +454,100 @@ RunOptions first_run(const CompareOptions& options, const Comparison& comparison
   return run;
 }
 
+namespace {
+
+// Runs everything at once over a running simulation, each run on a thread of its own: for each motion and
+// stride one run for its counts and one event by event.
+Comparison compare_live(const CompareOptions& options, const Warn& warn) {
+  if (options.inputs.size() > 1)
+    throw InputError(fmt::format("{}: a running simulation is compared alone; expected no other input",
+                                 file_names(options)));
+  if (options.view)
+    throw InputError("--view",
+                     "needs a second pass over the frames; a running simulation gives each frame once");
+  struct LiveRun {
+    RunOptions options;
+    std::size_t stride = 1;
+    bool event_by_event = false;
+    std::unique_ptr<FrameSource> frames;
+    std::unique_ptr<Scene> scene;
+    std::vector<CompareRow> rows;   // unless event by event
+    std::vector<EventCosts> costs;  // if event by event
+    std::vector<std::string> warnings;
+  };
+  RunOptions first = run_of(options, 0, options.motions.front());
+  first.velocities = options.velocities;
+  LiveInput live = open_live(first, warn);
+  FrameFan fan(*live.frames);
+  std::vector<LiveRun> runs;
+  for (const FrameMotion motion : options.motions)
+    for (const std::size_t stride : options.strides)
+      for (const bool event_by_event : {false, true}) {
+        runs.push_back({run_of(options, 0, motion), stride, event_by_event, fan.branch(stride)});
+        runs.back().options.threads = 1;
+      }
+  std::mutex mutex;
+  std::exception_ptr error;
+  const auto work = [&](LiveRun& run) {
+    try {
+      try {
+        run.scene = std::make_unique<Scene>(
+            scene_of_run(run.options, std::move(run.frames), live.survey, live.radii,
+                         [&run](const std::string& line) { run.warnings.push_back(line); }));
+      } catch (const InputError&) {
+        if (run.stride == options.strides.front()) throw;
+        return;  // fewer than two frames; any other fault also befalls the smallest stride
+      }
+      if (run.event_by_event) {
+        run.costs = costs_of_events(*open_run(run.options, *run.scene, AuditMode::none), [] {});
+      } else {
+        run.rows = run_once(*run.scene, run.options, [] {});
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!error) error = std::current_exception();
+      fan.stop();
+    }
+  };
+  std::vector<std::thread> threads;
+  for (LiveRun& run : runs) threads.emplace_back([&work, &run] { work(run); });
+  std::exception_ptr interrupted;
+  try {
+    fan.pump();
+  } catch (...) {
+    interrupted = std::current_exception();
+  }
+  for (std::thread& thread : threads) thread.join();
+  if (error) std::rethrow_exception(error);
+  if (interrupted) std::rethrow_exception(interrupted);
+
+  Comparison comparison;
+  comparison.inputs.push_back(described(first, *runs.front().scene, InputNames(options), 0));
+  comparison.inputs.front().truncated = live.frames->is_truncated();
+  for (std::size_t i = 0; i < runs.size(); i += 2) {
+    if (!runs[i].scene || !runs[i + 1].scene) {
+      warn(fmt::format("{} {}: sees fewer than two frames and is left out", "--strides"_arg, runs[i].stride));
+      continue;
+    }
+    RowsOfRounds rounds;
+    rounds.add(std::move(runs[i].rows), runs[i + 1].costs);
+    for (CompareRow& row : std::move(rounds).rows()) {
+      row.input = comparison.inputs.front().name;
+      row.stride = runs[i].stride;
+      comparison.rows.push_back(std::move(row));
+    }
+    if (runs[i].scene->velocities()) comparison.inputs.front().velocities = runs[i].scene->velocities();
+  }
+  for (const std::string& line : runs.front().warnings) warn(line);
+  for (const std::string& line : live.frames->warnings()) warn(line);
+  return comparison;
+}
+
+}  // namespace
+
 Comparison compare_runs(const CompareOptions& options,
                         const std::function<void(std::size_t, std::size_t)>& progress, const Warn& warn) {
+  if (is_live(options)) return compare_live(options, warn);
   for (const auto& input : options.inputs)
     if (is_instance_file(input) && options.motions != std::vector{FrameMotion::linear})
       throw InputError(input.string() +

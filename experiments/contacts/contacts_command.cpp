@@ -39,6 +39,7 @@ const OptionList<ContactsTask>& contacts_task_options() {
   static const auto list =
       OptionList<O>()
           .with(input_options().with({obstacle_option(), velocities_option()}))
+          .with(live_options())
           .with(&O::distances,
                 contact_options(
                     "two beads are in contact while their centres are at most this far apart (must be given; "
@@ -186,7 +187,8 @@ int contacts_command(const Arguments& arguments) {
   const ContactsOptions options = parse_contacts_options(arguments);
   const ContactsTask& task = options.task;
   TableCommand command("contacts", arguments, options.destinations, "step");
-  check_inputs_exist(task);
+  check_inputs_exist(task, true);
+  const SignalsEndLiveInput on_signal(task);
   TakenPaths taken;
   taken.read(task);
   if (options.view) taken.write_page(*options.view, options.destinations);

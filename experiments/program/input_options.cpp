@@ -266,6 +266,28 @@ const Option<InputOptions>& velocities_option() {
   return option;
 }
 
+const OptionList<InputOptions>& live_options() {
+  static const std::vector<Option<InputOptions>> options{
+      {{"--until", "TIME",
+        "with a running simulation: end after this time, in picoseconds if the frames have times, otherwise "
+        "in frames (default: when the simulation ends)"},
+       [](InputOptions& o, const std::string& text) {
+         o.reading.until = parse_real("--until", text, {0, 1e12});
+       }},
+      {{"--patience", "SECONDS",
+        "with a running simulation: how long to wait for the connection and for each frame (default: 60)"},
+       [](InputOptions& o, const std::string& text) {
+         o.reading.patience = parse_real("--patience", text, {0, 1e9, true});
+       }},
+      {{"--rate", "N", "ask a running simulation to send every Nth step only (default: what it sends)"},
+       [](InputOptions& o, const std::string& text) {
+         o.reading.rate = static_cast<unsigned>(parse_whole_number("--rate", text, 1, 1'000'000'000));
+       }},
+  };
+  static const OptionList<InputOptions> list(options);
+  return list;
+}
+
 Option<InputOptions> groups_option(const std::string& help) {
   Option<InputOptions> groups({"--groups", "SEL1 SEL2", help, 2});
   groups.read_values = [](InputOptions& o, const std::vector<std::string>& texts) {
@@ -309,8 +331,8 @@ ReadOptions reading_of(const InputOptions& options, std::size_t input) {
     reading.topology = options.topologies[input];
   if (!reading.chain) return reading;
   const std::vector<std::string> lists = split(*reading.chain, '/');
-  // A single list holds for all inputs. The obstacle comes after the inputs and has the default chain unless
-  // it has a list of its own.
+  // A single list holds for all inputs. The obstacle comes after the inputs and has the default chain
+  // unless it has a list of its own.
   const bool has_own = lists.size() > 1 || input >= options.inputs.size();
   const std::string own = !has_own                                   ? lists.front()
                           : input < lists.size() && lists.size() > 1 ? lists[input]
@@ -399,8 +421,30 @@ Json input_json(const InputOptions& options, InputSize size, std::span<const dou
   return input_json(options, size, *least, *most);
 }
 
-void check_inputs_exist(const InputOptions& options) {
-  for (const std::filesystem::path& input : options.inputs) check_exists(input);
+bool is_live(const InputOptions& options) { return std::ranges::any_of(options.inputs, is_live_address); }
+
+void check_inputs_exist(const InputOptions& options, bool takes_live) {
+  for (const std::filesystem::path& input : options.inputs) {
+    if (!is_live_address(input)) {
+      check_exists(input);
+    } else if (!takes_live) {
+      throw InputError(
+          fmt::format("{}: only kds run, contacts and compare follow a running simulation; "
+                      "expected a file",
+                      input.string()));
+    }
+  }
+  if (std::ranges::count_if(options.inputs, is_live_address) > 1)
+    throw InputError("two inputs are running simulations; expected one, and files of one frame beside it");
+  const ReadOptions& reading = options.reading;
+  const std::string_view needless = is_live(options)   ? ""
+                                    : reading.until    ? "--until"
+                                    : reading.patience ? "--patience"
+                                    : reading.rate     ? "--rate"
+                                                       : "";
+  if (!needless.empty())
+    throw InputError(needless,
+                     "is for a running simulation; expected its address, imd://HOST:PORT, as an input");
   if (options.reading.topology) check_exists(*options.reading.topology);
   for (const std::filesystem::path& topology : options.topologies)
     if (!topology.empty()) check_exists(topology);

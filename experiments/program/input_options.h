@@ -44,6 +44,8 @@ struct InputOptions {
 [[nodiscard]] const Option<InputOptions>& obstacle_option();
 /// Returns the option --velocities, for commands whose beads may move on Hermite curves.
 [[nodiscard]] const Option<InputOptions>& velocities_option();
+/// Returns the options --until, --patience and --rate, for commands that can follow a running simulation.
+[[nodiscard]] const OptionList<InputOptions>& live_options();
 /// Returns the option --groups, for commands that look at pairs of beads. `help` must outlive the option.
 [[nodiscard]] Option<InputOptions> groups_option(
     const std::string& help =
@@ -112,7 +114,11 @@ void add_ends(Json& input, const std::array<FrameStamp, 2>& ends);
 /// end.
 void check_exists(const std::filesystem::path& path);
 
-/// Throws InputError unless the inputs, the topology and the obstacle are regular files.
-void check_inputs_exist(const InputOptions& options);
+/// Throws InputError unless the inputs, the topology and the obstacle are regular files. One of the inputs
+/// may be the address of a running simulation if the command `takes_live`; otherwise the options of
+/// live_options are refused.
+void check_inputs_exist(const InputOptions& options, bool takes_live = false);
+/// Returns whether an input is the address of a running simulation.
+[[nodiscard]] bool is_live(const InputOptions& options);
 
 }  // namespace kds

@@ -4,16 +4,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
 #include "experiments/output/text.h"
 #include "motions/base/input_error.h"
+#include "motions/base/interruption.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/bead_name.h"
 #include "motions/readers/pdb_reader.h"
 #include "motions/readers/reader_registry.h"
+#include "motions/scene/length_unit.h"
 #include "motions/scene/radii.h"
 #include "motions/scene/straightened_frames.h"
 #include "structures/necklace/necklace_tree.h"
@@ -48,7 +51,21 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   return read_instance(*instance);
 }
 
+SignalsEndLiveInput::SignalsEndLiveInput(const InputOptions& options) : is_set_(is_live(options)) {
+  if (!is_set_) return;
+  struct sigaction action {};
+  action.sa_handler = [](int) { LiveEndRequest::set(true); };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int signal : {SIGINT, SIGTERM}) static_cast<void>(::sigaction(signal, &action, nullptr));
+}
+
+SignalsEndLiveInput::~SignalsEndLiveInput() {
+  if (!is_set_) return;
+  for (const int signal : {SIGINT, SIGTERM}) static_cast<void>(std::signal(signal, SIG_DFL));
+}
+
 void require_ascending_times(const InputOptions& input, const Scene& scene) {
+  if (scene.is_live()) return;  // LiveFrames checks each frame
   for (std::size_t frame = 1; frame < scene.frame_count(); ++frame) {
     const FrameStamp before = scene.stamp(frame - 1), now = scene.stamp(frame);
     if (!before.picoseconds || !now.picoseconds || *before.picoseconds < *now.picoseconds) continue;
@@ -249,6 +266,36 @@ class LoneFrameTwice final : public FrameSource {
 
 }  // namespace
 
+LiveInput open_live(const InputOptions& input, const std::function<void(const std::string&)>& warn) {
+  if (input.radius == "auto")
+    throw InputError("--radius", fmt::format("auto is half of the longest bond of all frames, and {} is a "
+                                             "running simulation; expected a length, element or file:PATH",
+                                             file_names(input)));
+  LiveEndRequest::set(false);
+  InputOptions opened = input;
+  opened.reading.velocities = input.velocities == VelocitySource::file;
+  auto frames = std::make_unique<LiveFrames>(open_frames(opened, warn));
+  FrameSurvey survey = frames->survey();
+  if (opened.reading.velocities && !survey.velocities)
+    throw InputError(
+        "--velocities",
+        fmt::format("file: {} sends no velocities with times; expected differences", file_names(input)));
+  if (!input.periodic) {
+    survey.periodic = false;
+    frames->leave_cells();
+  }
+  Eigen::Index begin = 0;
+  for (const NecklaceBeads& necklace : frames->necklaces()) {
+    const auto beads = static_cast<Eigen::Index>(necklace.count);
+    const std::string doubt =
+        nanometres_doubt(survey.first_positions.middleCols(begin, beads), necklace.breaks);
+    if (!doubt.empty()) warn(fmt::format("{}: {}", necklace.file, doubt));
+    begin += beads;
+  }
+  std::vector<double> radii = bead_radii(input.radius, frames->necklaces(), survey);
+  return {std::move(frames), std::move(survey), std::move(radii)};
+}
+
 Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                      const std::function<void(const std::string&)>& warn,
                      const std::optional<MotionTolerance>& tolerance, bool* lone_frame) {
@@ -262,6 +309,14 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
   InputOptions opened = input;
   opened.reading.velocities =
       motion == FrameMotion::hermite && input.velocities != VelocitySource::differences;
+  if (is_live(input)) {
+    if (tolerance)
+      throw InputError("--tolerance",
+                       "needs frames ahead of time; expected a file, not a running simulation");
+    LiveInput live = open_live(input, warn);
+    for (double& radius : live.radii) radius *= radius_factor;
+    return {std::move(live.frames), live.survey, std::move(live.radii), motion};
+  }
   std::unique_ptr<FileFrames> files = open_frames(opened, warn);
   FrameSurvey survey = survey_frames(*files, input.radius == "auto", warn);
   survey.periodic = survey.periodic && input.periodic;
@@ -311,6 +366,34 @@ void warn_of_cells(std::string_view what, const std::string& lacks_images, const
     warn(fmt::format("{} across the walls of the cell are not found, because {}", what, lacks_images));
 }
 
+namespace {
+
+// Sets the probe of a run, and warns about its structures.
+void complete(Scene& scene, const RunOptions& options, const std::function<void(const std::string&)>& warn) {
+  scene.set_probe(options.probe_length());
+  for (const std::string& name :
+       options.structures.empty() ? default_structures(scene) : options.structures) {
+    const StructureSpec* const spec = structure_registry().find(name);
+    if (spec == nullptr) continue;
+    if (spec->lacks_images && scene.is_periodic()) warn_of_images(name, warn);
+    if ((name == "dual" || name == "voids") && options.radius == "auto" && scene.probe() == 0)
+      warn(
+          fmt::format("{}: with {} auto the balls of a chain just touch, so their complex hardly changes; "
+                      "expected {} element, or a number",
+                      name, "--radius"_arg, "--radius"_arg));
+    if (!spec->across_walls.empty()) warn_of_cells(spec->across_walls, scene.lacks_images(), options, warn);
+  }
+}
+
+}  // namespace
+
+Scene scene_of_run(const RunOptions& options, std::unique_ptr<FrameSource> frames, const FrameSurvey& survey,
+                   std::vector<double> radii, const std::function<void(const std::string&)>& warn) {
+  Scene scene(std::move(frames), survey, std::move(radii), options.motion);
+  complete(scene, options, warn);
+  return scene;
+}
+
 Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn,
                  bool* lone_frame) {
   const InputOptions& input = options;
@@ -328,19 +411,7 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
     return Scene(std::move(*instance));
   }
   Scene scene = load_necklaces(input, options.motion, 1, warn, options.tolerance, lone_frame);
-  scene.set_probe(options.probe_length());
-  for (const std::string& name :
-       options.structures.empty() ? default_structures(scene) : options.structures) {
-    const StructureSpec* const spec = structure_registry().find(name);
-    if (spec == nullptr) continue;
-    if (spec->lacks_images && scene.is_periodic()) warn_of_images(name, warn);
-    if ((name == "dual" || name == "voids") && input.radius == "auto" && scene.probe() == 0)
-      warn(
-          fmt::format("{}: with {} auto the balls of a chain just touch, so their complex hardly changes; "
-                      "expected {} element, or a number",
-                      name, "--radius"_arg, "--radius"_arg));
-    if (!spec->across_walls.empty()) warn_of_cells(spec->across_walls, scene.lacks_images(), input, warn);
-  }
+  complete(scene, options, warn);
   return scene;
 }
 

@@ -12,6 +12,7 @@
 #include "experiments/program/input_options.h"
 #include "experiments/run/run_options.h"
 #include "motions/scene/file_frames.h"
+#include "motions/scene/live_frames.h"
 #include "motions/scene/scene.h"
 #include "structures/session/kinetic_run.h"
 #include "structures/session/parallel_run.h"
@@ -23,6 +24,19 @@ namespace kds {
 [[nodiscard]] std::optional<Instance> read_lone_instance(const InputOptions& options);
 /// Throws InputError for an instance file, which has `what`.
 void refuse_instance(const InputOptions& options, std::string_view what = "no frames");
+
+/// While it lives, Ctrl-C and the signal TERM end a live input of these options, so that the results of the
+/// frames seen are written. A second signal ends the program.
+class SignalsEndLiveInput {
+ public:
+  explicit SignalsEndLiveInput(const InputOptions& options);
+  ~SignalsEndLiveInput();
+  SignalsEndLiveInput(const SignalsEndLiveInput&) = delete;
+  SignalsEndLiveInput& operator=(const SignalsEndLiveInput&) = delete;
+
+ private:
+  bool is_set_;
+};
 
 /// Opens all inputs and then the obstacle, to be read frame by frame. Reads every `stride`-th frame of the
 /// frames that the options ask for. No input may be an instance file.
@@ -36,11 +50,27 @@ void refuse_instance(const InputOptions& options, std::string_view what = "no fr
 
 /// Reads all inputs once, then opens them for the run, which reads frames as it proceeds. Each warning goes
 /// to `warn` as one line. Throws InputError for any fault of an input. If `lone_frame` is given, an input of
-/// one frame is accepted: the frame is repeated, and `lone_frame` becomes true.
+/// one frame is accepted: the frame is repeated, and `lone_frame` becomes true. A live input is not read
+/// before the run: the scene waits for its first two frames, and Scene::live_warnings has the warnings after
+/// the last frame.
 [[nodiscard]] Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                                    const std::function<void(const std::string&)>& warn,
                                    const std::optional<MotionTolerance>& tolerance = {},
                                    bool* lone_frame = nullptr);
+/// A running simulation whose first frame has come, and what the frame says about the scene.
+struct LiveInput {
+  std::unique_ptr<LiveFrames> frames;
+  FrameSurvey survey;  ///< with velocities only if --velocities asks for those of the file
+  std::vector<double> radii;
+};
+/// Opens the live input of the options. Throws InputError also for options that need all frames.
+[[nodiscard]] LiveInput open_live(const InputOptions& input,
+                                  const std::function<void(const std::string&)>& warn);
+/// Makes the scene of a run, with its probe, from frames with this survey and these radii. Warns about
+/// structures as `load_scene` does.
+[[nodiscard]] Scene scene_of_run(const RunOptions& options, std::unique_ptr<FrameSource> frames,
+                                 const FrameSurvey& survey, std::vector<double> radii,
+                                 const std::function<void(const std::string&)>& warn);
 /// Throws InputError if lengths of time have no meaning, because a frame is not later than the one before.
 void require_ascending_times(const InputOptions& input, const Scene& scene);
 /// Says to `warn` that `what` leaves out the images of beads across the walls of a periodic cell.

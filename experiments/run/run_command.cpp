@@ -14,7 +14,7 @@ namespace kds {
 namespace {
 
 void check_before_run(const RunOptions& options) {
-  check_inputs_exist(options);
+  check_inputs_exist(options, true);
   TakenPaths paths;
   paths.read(options);
   paths.write(options);
@@ -34,6 +34,7 @@ void check_before_run(const RunOptions& options) {
 int run_command(const Arguments& arguments) {
   const RunOptions options = parse_run_options(arguments);
   check_before_run(options);
+  const SignalsEndLiveInput on_signal(options);
 
   RunResults results(options, options.events, options.view);
   ProgressBar bar(!options.quiet, "step");

@@ -198,6 +198,7 @@ const OptionList<RunOptions>& run_options() {
   using O = RunOptions;
   static const OptionList<O> list =
       motion_and_structure_options()
+          .with(live_options())
           .with({
               flag_option("--certify",
                           fmt::format("with a stride in {}, or with {}: read all frames too, and report the "
@@ -238,7 +239,8 @@ RunOptions parse_run_options(const Arguments& arguments) {
 
 Arguments repeating_arguments(const RunOptions& options) {
   Arguments arguments;
-  for (const auto& input : options.inputs) arguments.push_back(std::filesystem::absolute(input).string());
+  for (const auto& input : options.inputs)
+    arguments.push_back((is_live_address(input) ? input : std::filesystem::absolute(input)).string());
   const Arguments settings = run_options().arguments(options);
   arguments.insert(arguments.end(), settings.begin(), settings.end());
   return arguments;

@@ -2,6 +2,7 @@
 // Ends a long computation from outside, such as on Ctrl-C in Python. Long computations ask often, on their
 // own thread, whether to go on. If the thread's host has set a check, the check answers by throwing.
 
+#include <atomic>
 #include <functional>
 #include <utility>
 
@@ -31,6 +32,19 @@ class InterruptionCheck {
 
   std::function<void()> check_;
   InterruptionCheck* outer_;
+};
+
+/// The request to end the input that a running simulation sends, as on Ctrl-C. The frames read until then
+/// stay valid. It is a request to the whole process.
+class LiveEndRequest {
+ public:
+  /// May be called by a signal handler.
+  static void set(bool requested) noexcept { requested_.store(requested, std::memory_order_relaxed); }
+  [[nodiscard]] static bool is_set() noexcept { return requested_.load(std::memory_order_relaxed); }
+
+ private:
+  static inline std::atomic<bool> requested_ = false;
+  static_assert(std::atomic<bool>::is_always_lock_free);
 };
 
 }  // namespace kds

@@ -11,6 +11,7 @@
 
 #include "motions/base/bead_groups.h"
 #include "motions/frames/frame_stamp.h"
+#include "motions/frames/live_state.h"
 #include "motions/frames/periodic.h"
 
 namespace kds {
@@ -60,8 +61,17 @@ class FrameReader {
   /// the frames between come as well. `frame.asked` is true before the call, and the reader sets it to false
   /// for a frame between. Throws InputError naming file and frame.
   [[nodiscard]] virtual bool next(FrameRead& frame) = 0;
-  /// Starts again at the first frame.
+  /// Starts again at the first frame. A live reader (FramesOpened::live) can do so until a second frame has
+  /// been read.
   virtual void rewind() = 0;
+  /// Ends the reading. A live reader leaves the simulation to itself.
+  virtual void close() {}
+  /// Returns lines about the frames, known once the last one has been read.
+  [[nodiscard]] virtual std::vector<std::string> closing_notes() const { return {}; }
+  /// Returns whether frames are missing at the end because the connection broke.
+  [[nodiscard]] virtual bool is_cut() const { return false; }
+  /// Returns who waits for whom, or nothing if the reader is not live.
+  [[nodiscard]] virtual std::optional<LiveState> live() const { return std::nullopt; }
 };
 
 /// An open file of frames.
@@ -77,6 +87,7 @@ struct FramesOpened {
   bool chain_like = true;  ///< consecutive beads are meant to be bonded
   bool truncated = false;  ///< frames are missing at the end (FramesAsked)
   bool at_rest = false;    ///< the file holds only one frame
+  bool live = false;       ///< a simulation sends the frames while it runs; `next` waits for them
   std::unique_ptr<FrameReader> frames;
 };
 

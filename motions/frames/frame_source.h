@@ -8,6 +8,7 @@
 // | FileFrames (motions/scene/file_frames.h) | files, which are read frame by frame |
 // | MemoryFrames | trajectories, or an array of the caller |
 // | FrameQueue | the caller, who pushes them one by one |
+// | LiveFrames (motions/scene/live_frames.h) | a simulation that runs |
 // | StraightenedFrames (motions/scene/straightened_frames.h) | another source |
 
 #include <Eigen/Core>
@@ -20,6 +21,7 @@
 
 #include "motions/base/bead.h"
 #include "motions/frames/frame_reader.h"
+#include "motions/frames/live_state.h"
 #include "motions/frames/periodic.h"
 #include "motions/frames/trajectory.h"
 
@@ -67,13 +69,16 @@ class FrameSource {
   /// Makes frame k the next one, counted from 0. Throws InputError if the source has passed this frame and
   /// keeps no frames.
   virtual void seek(std::size_t k) = 0;
-  /// Returns whether frames may still be added.
+  /// Returns whether more frames may come, and their number is not known. `next` then waits for a frame, or
+  /// returns false if the caller has to push one.
   [[nodiscard]] virtual bool is_open() const { return false; }
   /// Returns whether frames are missing at the end, because a file ends inside a frame or --until-damage has
   /// left out damaged ones. Known once all frames have been read.
   [[nodiscard]] virtual bool is_truncated() const { return false; }
   /// Returns lines about the frames. The lines are complete once all frames have been read.
   [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
+  /// Returns who waits for whom, or nothing unless the frames come from a simulation that runs.
+  [[nodiscard]] virtual std::optional<LiveState> live() const { return std::nullopt; }
 };
 
 /// Frames in memory. Seeking takes constant time.

@@ -174,6 +174,7 @@ bool look_bonded(const Eigen::Matrix3Xd& beads, const std::vector<std::size_t>& 
 NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOptions& options)
     : opened_(open_frames(path, options)),
       time_step_(options.time_step),
+      until_(options.until),
       until_damage_(options.until_damage),
       heads_(heads_of(opened_)),
       notes_(heads_.size()) {
@@ -449,6 +450,7 @@ bool NecklaceStream::next(FrameRead& frame) {
   try {
     return read(frame);
   } catch (const InputError& error) {
+    opened_.frames->close();
     if (!until_damage_ || !last_read_) throw;
     damage_ =
         fmt::format("{}; frames up to {} are read ({})", error.what(), *last_read_, "--until-damage"_arg);
@@ -484,6 +486,11 @@ bool NecklaceStream::read(FrameRead& frame) {
     if (frame.stamp.picoseconds) has_times_ = true;
     frame.stamp.picoseconds = static_cast<double>(frame.stamp.number) * *time_step_;
   }
+  if (until_ && frame.stamp.picoseconds.value_or(static_cast<double>(frame.stamp.number)) > *until_) {
+    opened_.frames->close();
+    ended_ = true;
+    return false;
+  }
   note_time(frame.stamp);
   last_read_ = frame.stamp.number;
   note_cell(frame);
@@ -518,6 +525,8 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
   std::vector<std::string> lines;
   if (necklace == 0) {
     lines = opened_.warnings;
+    for (const std::string& note : opened_.frames->closing_notes())
+      lines.push_back(fmt::format("{}: {}", opened_.file, note));
     if (!damage_.empty()) lines.push_back(damage_);
     if (has_times_)
       lines.push_back(fmt::format("{}: has times of its own, which {} {} replaces", opened_.file, "--dt"_arg,

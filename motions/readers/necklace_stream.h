@@ -50,7 +50,12 @@ class NecklaceStream {
   [[nodiscard]] std::vector<std::string> warnings(std::size_t necklace) const;
   /// Returns whether frames are missing at the end: the file ends inside a frame, or a damaged frame has
   /// ended the reading. Complete once all frames have been read.
-  [[nodiscard]] bool is_truncated() const { return opened_.truncated || !damage_.empty(); }
+  [[nodiscard]] bool is_truncated() const {
+    return opened_.truncated || !damage_.empty() || opened_.frames->is_cut();
+  }
+  /// Returns whether a running simulation sends the frames (FramesOpened::live).
+  [[nodiscard]] bool is_live() const { return opened_.live; }
+  [[nodiscard]] std::optional<LiveState> live() const { return opened_.frames->live(); }
 
  private:
   /// Findings about one necklace, for its warnings.
@@ -108,7 +113,7 @@ class NecklaceStream {
   bool is_fluid_ = false;     ///< `unwrap_` is beads because of the first frame
   bool are_several_ = false;  ///< `unwrap_` is beads, and beads of the first frame are joined
   UnwrappedBeads paths_;      ///< if `unwrap_` is beads
-  std::optional<double> time_step_;
+  std::optional<double> time_step_, until_;
   bool until_damage_;
   std::vector<Trajectory> heads_;
   std::vector<Piece> pieces_;              ///< for all necklaces, in order

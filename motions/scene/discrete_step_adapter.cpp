@@ -44,7 +44,7 @@ DiscreteStepAdapter::DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, co
       last_(like.last_) {}
 
 FrameBuffer* DiscreteStepAdapter::buffer() {
-  if (source_->is_open()) return nullptr;  // the caller pushes the frames
+  if (source_->is_open()) return nullptr;  // frames are pushed, or come from a simulation
   if (buffer_ == nullptr) {
     auto buffer = std::make_unique<FrameBuffer>(std::move(source_), first_held_ + window_.size());
     buffer_ = buffer.get();
@@ -87,11 +87,22 @@ bool DiscreteStepAdapter::read_next() {
   return true;
 }
 
+bool DiscreteStepAdapter::read_new() {
+  if (!read_next()) return false;
+  if (frame_count_++ == 0) first_ = window_.back().stamp;
+  last_ = window_.back().stamp;
+  return true;
+}
+
 void DiscreteStepAdapter::read_on() {
-  while (read_next()) {
-    if (frame_count_++ == 0) first_ = window_.back().stamp;
-    last_ = window_.back().stamp;
+  while (read_new()) {
   }
+}
+
+bool DiscreteStepAdapter::has_step(std::size_t k) {
+  while (known_steps() <= k && source_->is_open() && read_new()) {
+  }
+  return k < known_steps();
 }
 
 void DiscreteStepAdapter::hold(std::size_t first, std::size_t last) {

@@ -43,7 +43,8 @@ inline constexpr std::array<std::string_view, 3> frame_motion_names{"linear", "h
 class DiscreteStepAdapter final : public StepSource {
  public:
   /// Adapts frames that have been surveyed. `survey` must be that of the source, or of a source with the same
-  /// frames. If the survey found a plane, the motion is two-dimensional.
+  /// frames. If the survey found a plane, the motion is two-dimensional. A source that is open has a survey
+  /// of its first frame (LiveFrames::survey).
   DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey, FrameMotion motion);
   /// Adapts frames that are still to come. These frames have `dimension` coordinates, and all of them a cell
   /// if they are `periodic`.
@@ -57,6 +58,7 @@ class DiscreteStepAdapter final : public StepSource {
   /// While frames may be added, a step that needs `reach` is known one frame later than others.
   [[nodiscard]] std::size_t known_steps() const override;
 
+  [[nodiscard]] bool has_step(std::size_t k) override;
   void read_on() override;
   [[nodiscard]] FrameBuffer* buffer() override;
   [[nodiscard]] std::size_t reach() const override {
@@ -81,6 +83,8 @@ class DiscreteStepAdapter final : public StepSource {
   /// Reads the next frame into the window, in place of the oldest one if the window is full. Returns false if
   /// the source has no frame.
   [[nodiscard]] bool read_next();
+  /// Like `read_next`, and counts the frame.
+  [[nodiscard]] bool read_new();
   /// Returns a frame in the window.
   [[nodiscard]] const FrameRead& held(std::size_t frame) const { return window_[frame - first_held_]; }
   [[nodiscard]] double position(std::size_t frame, BeadId bead, int axis) const {

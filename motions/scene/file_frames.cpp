@@ -19,6 +19,7 @@ FileFrames::FileFrames(std::vector<NecklaceStream> files, bool last_is_obstacle)
                                      [](const NecklaceStream& file) { return !file.holds_one_frame(); });
   for (NecklaceStream& file : files_) {
     at_rest_.push_back(files_.size() > 1 && file.holds_one_frame());
+    if (file.is_live()) live_ = static_cast<std::size_t>(&file - files_.data());
     const bool is_obstacle = last_is_obstacle && &file == &files_.back();
     for (const Trajectory& head : file.heads()) {
       necklaces_.push_back(beads_of(head));
@@ -26,6 +27,12 @@ FileFrames::FileFrames(std::vector<NecklaceStream> files, bool last_is_obstacle)
       necklaces_.back().at_rest = is_obstacle || (at_rest_.back() && some_move);
     }
   }
+  for (std::size_t f = 0; live_ && f < files_.size(); ++f)
+    if (f != *live_ && !at_rest_[f])
+      throw InputError(
+          fmt::format("{}: moves beside {}, which a running simulation sends; expected inputs of "
+                      "one frame beside it",
+                      files_[f].heads().front().file, files_[*live_].heads().front().file));
 }
 
 bool FileFrames::next(FrameRead& frame) {
@@ -41,6 +48,7 @@ bool FileFrames::next(FrameRead& frame) {
     }
   }
   if (!more || truncated) {
+    ended_ = true;
     all_ = read_;
     for (std::size_t& frames : all_) frames = std::min(frames, next_);
     if (more)
@@ -116,6 +124,7 @@ FrameStamp FileFrames::stamp() {
 
 void FileFrames::seek(std::size_t k) {
   if (k < next_) {
+    ended_ = false;
     for (NecklaceStream& file : files_) file.rewind();
     std::fill(read_.begin(), read_.end(), 0);
     next_ = times_differ_ = 0;

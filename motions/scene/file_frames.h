@@ -15,7 +15,8 @@ namespace kds {
 class FileFrames final : public FrameSource {
  public:
   /// The last file is an obstacle if the caller says so. Otherwise files of one frame are at rest beside
-  /// files of more frames.
+  /// files of more frames. One of the files may be live (NecklaceStream::is_live); throws InputError if
+  /// another one moves beside it.
   explicit FileFrames(std::vector<NecklaceStream> files, bool last_is_obstacle = false);
 
   [[nodiscard]] const std::vector<NecklaceBeads>& necklaces() const override { return necklaces_; }
@@ -23,8 +24,12 @@ class FileFrames final : public FrameSource {
   /// InputError unless all files have the same number of frames, or one (at rest). The last frame of a
   /// truncated or damaged file is the last one of all files.
   [[nodiscard]] bool next(FrameRead& frame) override;
-  /// Reads the files again from the start to go back.
+  /// Reads the files again from the start to go back. Throws InputError if one is live.
   void seek(std::size_t k) override;
+  [[nodiscard]] bool is_open() const override { return live_ && !ended_; }
+  [[nodiscard]] std::optional<LiveState> live() const override {
+    return live_ ? files_[*live_].live() : std::nullopt;
+  }
   /// Includes a line about frames that are left out because another file is truncated, a line about times
   /// that differ between files, and lines about necklaces whose periodic image in the first frame is much
   /// nearer to necklaces of earlier files.
@@ -52,6 +57,8 @@ class FileFrames final : public FrameSource {
   [[nodiscard]] std::optional<Cell> common_cell();
 
   std::vector<NecklaceStream> files_;
+  std::optional<std::size_t> live_ = {};  ///< index of the file that is live, if one is
+  bool ended_ = false;                    ///< all frames of the live file have been read
   std::vector<NecklaceBeads> necklaces_;
   std::vector<bool> at_rest_;                     ///< whether a file has only one frame, one per file
   std::vector<FrameRead> present_;                ///< the present frame of each file

@@ -189,28 +189,38 @@ std::string CellSurvey::why_not() const {
                 : "frames differ in which vectors of the cell are periodic";
 }
 
-namespace {
-
-// Describes the moves whose path is a guess.
-std::string described(const FarMoves& far, const std::vector<NecklaceBeads>& necklaces) {
-  std::size_t bead = far.first_bead;
-  auto necklace = necklaces.begin();
-  for (; bead >= necklace->count; ++necklace) bead -= necklace->count;
-  const std::string name = necklace->names.empty() ? "" : fmt::format(" ({})", necklace->names[bead]);
-  return fmt::format(
-      "{}: frame {}: bead {}{} has moved {:.4g} since the frame before, more than half of the cell's "
-      "shortest "
-      "vector ({:.4g}), so its path is a guess ({})",
-      necklace->file, far.first_frame, far.first_bead, name, far.length, far.half_cell,
-      counted(far.count, "such move"));
+std::vector<std::string> CellSurvey::guesses(const std::vector<NecklaceBeads>& necklaces) const {
+  std::vector<std::string> lines;
+  if (far_.count > 0) {
+    std::size_t bead = far_.first_bead;
+    auto necklace = necklaces.begin();
+    for (; bead >= necklace->count; ++necklace) bead -= necklace->count;
+    const std::string name = necklace->names.empty() ? "" : fmt::format(" ({})", necklace->names[bead]);
+    lines.push_back(fmt::format(
+        "{}: frame {}: bead {}{} has moved {:.4g} since the frame before, more than half of the cell's "
+        "shortest vector ({:.4g}), so its path is a guess ({})",
+        necklace->file, far_.first_frame, far_.first_bead, name, far_.length, far_.half_cell,
+        counted(far_.count, "such move")));
+  }
+  if (jumps_.count > 0)
+    lines.push_back(
+        fmt::format("{}: frame {}: the cell has changed by {:.4g} since the frame before, more than half of "
+                    "its shortest vector ({:.4g}), so the paths of images are a guess ({})",
+                    necklaces.front().file, jumps_.first_frame, jumps_.change, jumps_.half_cell,
+                    counted(jumps_.count, "such change")));
+  return lines;
 }
-
-}  // namespace
 
 FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
                           const std::function<void(const std::string&)>& warn) {
   const FloatingPointScope to_nearest;
   const std::vector<NecklaceBeads>& necklaces = frames.necklaces();
+  if (frames.is_open())
+    throw InputError(fmt::format(
+        "{}: a running simulation gives each frame once, which serves {}; expected a "
+        "file",
+        necklaces.front().file,
+        words("kds run, contacts and compare", "kds.run, kds.contacts, kds.compare and kds.stream")));
   FrameSurvey survey;
   PlaneSearch planes, planes_of_positions;
   CellSurvey cells;
@@ -249,13 +259,8 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   if (!doubt.empty()) warn(doubt);
   if (warn)
     for (const std::string& line : frames.warnings()) warn(line);
-  if (warn && survey.periodic && cells.far_moves().count > 0) warn(described(cells.far_moves(), necklaces));
-  if (const CellJumps& jumps = cells.cell_jumps(); warn && survey.periodic && jumps.count > 0)
-    warn(fmt::format(
-        "{}: frame {}: the cell has changed by {:.4g} since the frame before, more than half of its shortest "
-        "vector ({:.4g}), so the paths of images are a guess ({})",
-        necklaces.front().file, jumps.first_frame, jumps.change, jumps.half_cell,
-        counted(jumps.count, "such change")));
+  if (warn && survey.periodic)
+    for (const std::string& line : cells.guesses(necklaces)) warn(line);
   frames.seek(0);
   return survey;
 }

@@ -85,8 +85,8 @@ class CellSurvey {
   [[nodiscard]] bool is_periodic(const std::optional<AxisPlane>& plane) const;
   /// Returns why not, or an empty text if no frame has a cell.
   [[nodiscard]] std::string why_not() const;
-  [[nodiscard]] const FarMoves& far_moves() const { return far_; }
-  [[nodiscard]] const CellJumps& cell_jumps() const { return jumps_; }
+  /// Returns lines about moves and changes of cells for which paths are a guess.
+  [[nodiscard]] std::vector<std::string> guesses(const std::vector<NecklaceBeads>& necklaces) const;
 
  private:
   std::size_t with_cell_ = 0, without_cell_ = 0;

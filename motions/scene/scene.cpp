@@ -41,7 +41,8 @@ Scene::Scene(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey, std
 void Scene::take(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey, FrameMotion motion) {
   const std::vector<NecklaceBeads>& necklaces = frames->necklaces();
   const std::string file = necklaces.empty() ? "no input" : necklaces.front().file;
-  if (survey.frame_count < 2)
+  if (frames->is_open()) live_ = frames.get();
+  if (survey.frame_count < 2 && live_ == nullptr)
     throw InputError(
         fmt::format("{}: a run needs at least two frames, this input has {}", file, survey.frame_count));
   if (count_beads(necklaces) == 0) throw InputError(fmt::format("{}: expected beads, found none", file));
@@ -59,6 +60,8 @@ void Scene::take(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey,
   lacks_images_ = survey.lacks_images;
   plane_ = survey.plane.value_or(AxisPlane{});
   steps_ = std::make_unique<DiscreteStepAdapter>(std::move(frames), survey, motion);
+  if (live_ != nullptr && !has_step(0))
+    throw InputError(fmt::format("{}: has ended before its second frame; a run needs at least two", file));
 }
 
 Scene::Scene(PushedFrames frames) : radii_(std::move(frames.radii)), has_radii_(!radii_.empty()) {

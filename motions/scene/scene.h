@@ -50,7 +50,8 @@ class Scene {
   /// at least four beads, because fewer beads always lie in some plane.
   Scene(std::span<const Trajectory> necklaces, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
-  /// Makes a scene of frames from any source. `survey` must be that of the source (frame_survey.h). Only the
+  /// Makes a scene of frames from any source. `survey` must be that of the source (frame_survey.h, or
+  /// LiveFrames::survey if the source is open; the call then waits for the first step). Only the
   /// frames that one step needs are in memory, unless the source itself keeps frames. Loading steps and
   /// accessing frames is fast in ascending order; going back may read files again from the start. Throws
   /// InputError like the first constructor.
@@ -77,8 +78,22 @@ class Scene {
   /// Declares that no further frame follows.
   void end_frames();
   /// Returns the number of steps whose motion is known. The motion of every step is known, except in a scene
-  /// of pushed frames. There, Hermite curves are known one frame later, or when the frames end.
+  /// of frames that are pushed or live. There, Hermite curves with differences are known one frame later, or
+  /// when the frames end.
   [[nodiscard]] std::size_t known_steps() const { return steps_->known_steps(); }
+  /// Returns whether the motion of step k is known. A live scene waits for its frames.
+  [[nodiscard]] bool has_step(std::size_t k) const { return steps_->has_step(k); }
+  /// Returns whether frames come from a simulation that runs, each only once. The numbers of frames and steps
+  /// then grow, and frames before the latest step are gone, except for the stamp of frame 0.
+  [[nodiscard]] bool is_live() const { return live_ != nullptr; }
+  /// Returns who waits for whom, or nothing if the scene is not live.
+  [[nodiscard]] std::optional<LiveState> live() const {
+    return live_ == nullptr ? std::nullopt : live_->live();
+  }
+  /// Returns lines about the frames of a live scene. Complete once the last frame has been read.
+  [[nodiscard]] std::vector<std::string> live_warnings() const {
+    return live_ == nullptr ? std::vector<std::string>() : live_->warnings();
+  }
 
   [[nodiscard]] int dimension() const { return steps_->dimension(); }
   [[nodiscard]] int degree() const { return steps_->degree(); }
@@ -86,16 +101,18 @@ class Scene {
   /// Returns where the velocities of Hermite curves come from, or nothing for another motion or an instance.
   [[nodiscard]] std::optional<VelocitySource> velocities() const { return steps_->velocities(); }
   [[nodiscard]] std::size_t bead_count() const { return radii_.size(); }
-  /// Returns the number of frames. An instance has two, u = 0 and u = 1. For pushed frames, returns how many
-  /// have been pushed.
+  /// Returns the number of frames. An instance has two, u = 0 and u = 1. For frames that are pushed or live,
+  /// returns how many have come.
   [[nodiscard]] std::size_t frame_count() const { return steps_->frame_count(); }
   [[nodiscard]] std::size_t step_count() const { return frame_count() == 0 ? 0 : frame_count() - 1; }
 
   // A run on several threads reads frames ahead, and makes a scene for each of its parts.
 
   /// Returns the buffer through which the scene reads its frames, or null if its frames cannot be read ahead
-  /// (an instance, pushed frames). The first call makes the buffer.
-  [[nodiscard]] FrameBuffer* frames() const { return pushed_ == nullptr ? steps_->buffer() : nullptr; }
+  /// (an instance, frames that are pushed or live). The first call makes the buffer.
+  [[nodiscard]] FrameBuffer* frames() const {
+    return pushed_ == nullptr && live_ == nullptr ? steps_->buffer() : nullptr;
+  }
   /// Returns the number of frames beyond each end of a step that the step needs.
   [[nodiscard]] std::size_t reach() const { return steps_->reach(); }
   /// Returns a scene with the same beads, steps and numbers of frames that reads its frames from `frames`.
@@ -112,7 +129,7 @@ class Scene {
   /// Returns why beads have no images although frames have cells (FrameSurvey::lacks_images).
   [[nodiscard]] const std::string& lacks_images() const { return lacks_images_; }
   /// Returns whether frames are missing at the end of the input (FrameSource::is_truncated).
-  [[nodiscard]] bool is_truncated() const { return truncated_; }
+  [[nodiscard]] bool is_truncated() const { return live_ == nullptr ? truncated_ : live_->is_truncated(); }
   /// Returns a frame's number in the file and its time, for messages and results.
   [[nodiscard]] FrameStamp stamp(std::size_t frame) const;
   [[nodiscard]] std::size_t frame_number(std::size_t frame) const { return stamp(frame).number; }
@@ -212,6 +229,7 @@ class Scene {
   AxisPlane plane_;  // the plane of a planar scene; else the input's own axes
   std::unique_ptr<StepSource> steps_;
   FrameQueue* pushed_ = nullptr;  // the source of frames that are pushed; owned by `steps_`
+  FrameSource* live_ = nullptr;   // the source of frames that are live; owned by `steps_`
 };
 
 }  // namespace kds

@@ -50,8 +50,11 @@ class StepSource {
   [[nodiscard]] virtual std::size_t frame_count() const = 0;
   /// Returns the number of steps whose motion is known.
   [[nodiscard]] virtual std::size_t known_steps() const = 0;
+  /// Returns whether the motion of step k is known. Waits for its frames if they come from a simulation that
+  /// runs.
+  [[nodiscard]] virtual bool has_step(std::size_t k) { return k < known_steps(); }
 
-  /// Reads the frames that have been added to the source of frames.
+  /// Reads the frames that have been pushed to the source of frames.
   virtual void read_on() {}
   /// Returns the buffer through which the source reads frames, or null if its frames cannot be read ahead.
   /// The first call makes the buffer.

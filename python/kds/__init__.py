@@ -14,6 +14,7 @@ from ._analyses import (Collisions, Comparison, Conditions, Contacts, Replicas, 
 from ._kds import AuditError, InputError
 from ._kds import version as _version
 from ._impacts import impacts
+from ._open import Opened, open
 from ._options import InputWarning
 from ._paper import closest_by_diagram, separating_family, trusted_hierarchy
 from ._run import Run, run, structure_names
@@ -25,10 +26,10 @@ from ._view import View
 AuditError.__module__ = InputError.__module__ = "kds"
 __version__ = _version()
 __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "Contacts", "InputError", "InputWarning",
-           "KineticAnalysis", "KineticRun", "Replicas", "Run", "StreamFrame", "Structure", "Surface", "Trade", "Updates",
+           "KineticAnalysis", "KineticRun", "Opened", "Replicas", "Run", "StreamFrame", "Structure", "Surface", "Trade", "Updates",
            "View", "Voids", "closest_by_diagram", "closest_pair", "collide", "colliding_pairs", "compare", "conditions",
            "contacts", "contacts_of_replicas", "enclosing_sphere", "generate", "impacts", "layered_hierarchy",
-           "power_diagram", "run", "separating_family", "stream", "structure_names", "surface", "trade",
+           "open", "power_diagram", "run", "separating_family", "stream", "structure_names", "surface", "trade",
            "trusted_hierarchy", "update", "voids", "wrapped_hierarchy"]
 
 

@@ -53,7 +53,8 @@ class KineticRun:
     def _open(self, source, options):
         _warn_of_threads(options)
         self._core, self._source, _, _ = open_run(source, **options)
-        self._clock = Clock(self._core.stamp(0)[0], self._core.stamp(1)[0], self._core.frame_count)
+        frames = None if self._core.is_live else self._core.frame_count
+        self._clock = Clock(self._core.stamp(0)[0], self._core.stamp(1)[0], frames)
 
     @classmethod
     @takes("run", without=_NOT_PUSHED)
@@ -261,10 +262,10 @@ def _stream_frames(source, options):
     run._open(source, {**options, "pull": True})
     run._core.build()
     yield StreamFrame(*run._core.stamp(0), run._core.take_events(), run, 0)
-    for k in range(1, run._core.frame_count):
-        events = run.step()
+    for k, events in enumerate(iter(run.step, None), 1):
         yield StreamFrame(*run._core.stamp(k), events, run, k)
     run.finish()
+    warn(run._core.live_warnings())
 
 
 def _stream_pushed(source, start=None, stop=None, step=None, radius=None, necklaces=None, units=None, **options):

@@ -191,9 +191,7 @@ void KineticRun::watch_work(std::function<void()> watcher, std::uint64_t every) 
   simulator().exact_work().set_watcher(work_watcher_, every);
 }
 
-bool KineticRun::can_enter() const {
-  return !finished_ && (motion_ || simulator_->step() < scene_.known_steps());
-}
+bool KineticRun::can_enter() const { return !finished_ && (motion_ || scene_.has_step(simulator_->step())); }
 
 /// Sets the motion to the next step. A motion that the user sets is checked each time, because the user may
 /// have changed it.

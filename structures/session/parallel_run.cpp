@@ -303,7 +303,7 @@ void ParallelRun::plan(std::function<void(KineticRun&)> addition) {
 void ParallelRun::decide() {
   if (std::exchange(is_decided_, true)) return;
   if (scene_.frames() == nullptr) {
-    uncut_ = "its input is a single step";
+    uncut_ = scene_.is_live() ? "its frames come one by one" : "its input is a single step";
   } else {
     for (std::size_t s = 0; s < own_->structures().size() && !uncut_; ++s)
       if (!own_->running(s).can_be_cut())
