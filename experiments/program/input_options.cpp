@@ -436,15 +436,6 @@ void check_inputs_exist(const InputOptions& options, bool takes_live) {
   }
   if (std::ranges::count_if(options.inputs, is_live_address) > 1)
     throw InputError("two inputs are running simulations; expected one, and files of one frame beside it");
-  const ReadOptions& reading = options.reading;
-  const std::string_view needless = is_live(options)   ? ""
-                                    : reading.until    ? "--until"
-                                    : reading.patience ? "--patience"
-                                    : reading.rate     ? "--rate"
-                                                       : "";
-  if (!needless.empty())
-    throw InputError(needless,
-                     "is for a running simulation; expected its address, imd://HOST:PORT, as an input");
   if (options.reading.topology) check_exists(*options.reading.topology);
   for (const std::filesystem::path& topology : options.topologies)
     if (!topology.empty()) check_exists(topology);

@@ -115,8 +115,7 @@ void add_ends(Json& input, const std::array<FrameStamp, 2>& ends);
 void check_exists(const std::filesystem::path& path);
 
 /// Throws InputError unless the inputs, the topology and the obstacle are regular files. One of the inputs
-/// may be the address of a running simulation if the command `takes_live`; otherwise the options of
-/// live_options are refused.
+/// may be the address of a running simulation if the command `takes_live`.
 void check_inputs_exist(const InputOptions& options, bool takes_live = false);
 /// Returns whether an input is the address of a running simulation.
 [[nodiscard]] bool is_live(const InputOptions& options);

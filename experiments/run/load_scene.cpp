@@ -48,6 +48,9 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   refuse(!options.periodic, "--no-periodic");
   refuse(options.radius != "auto", "--radius");
   refuse(options.obstacle.has_value(), "--obstacle");
+  refuse(reading.until.has_value(), "--until");
+  refuse(reading.patience.has_value(), "--patience");
+  refuse(reading.rate.has_value(), "--rate");
   return read_instance(*instance);
 }
 
@@ -204,11 +207,23 @@ bool takes_side_chains(const std::vector<NecklaceStream>& files, const Selection
                      [](const NecklaceStream& file) { return !file.chain_like(); });
 }
 
+void refuse_live_options(const InputOptions& options) {
+  const ReadOptions& reading = options.reading;
+  const std::string_view given = reading.until      ? "--until"
+                                 : reading.patience ? "--patience"
+                                 : reading.rate     ? "--rate"
+                                                    : "";
+  if (!given.empty())
+    throw InputError(given, fmt::format("is for a running simulation; expected its address, {}, as an input",
+                                        live_example));
+}
+
 }  // namespace
 
 std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
                                         const std::function<void(const std::string&)>& warn,
                                         std::size_t stride) {
+  if (!is_live(options)) refuse_live_options(options);
   std::vector<NecklaceStream> files;
   std::vector<InputAtoms> atoms;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {

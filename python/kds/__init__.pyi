@@ -39,6 +39,11 @@ class _Source(TypedDict, total=False):
 
 class _Input(_Frames, _Source): ...
 
+class _Live(TypedDict, total=False):
+    until: Optional[float]
+    patience: Optional[float]
+    rate: Optional[int]
+
 class _Settings(TypedDict, total=False):
     structures: Optional[Names]
     motion: Optional[str]
@@ -65,7 +70,7 @@ class _Analysis(_Source, _Settings, total=False):
     groups: Optional[Tuple[Any, Any]]
     only: Optional[Mapping[str, Iterable[int]]]
 
-class _Run(_Frames, _Analysis): ...
+class _Run(_Frames, _Live, _Analysis): ...
 
 class _Lifetimes(TypedDict, total=False):
     surface: bool
@@ -77,13 +82,13 @@ class _Lifetimes(TypedDict, total=False):
     certify: bool
     threads: Optional[int]
 
-class _Contacts(_Input, _Lifetimes, total=False):
+class _Contacts(_Input, _Live, _Lifetimes, total=False):
     velocities: Union[str, ArrayLike, None]
     obstacle: Optional[Path]
     by: Optional[str]
     groups: Optional[Tuple[Any, Any]]
 
-class _Compare(_Input, total=False):
+class _Compare(_Input, _Live, total=False):
     velocities: Union[str, ArrayLike, None]
     structures: Optional[Names]
     strides: Optional[Strides]
@@ -315,6 +320,15 @@ class KineticAnalysis:
             verbose: Optional[bool] = None) -> KineticAnalysis: ...
 
 def run(source: Source, *, verbose: bool = False, view: Optional[Path] = None, **options: Unpack[_Run]) -> Run: ...
+class Opened:
+    source: Source
+    options: Dict[str, Any]
+    def run(self, **options: Any) -> Run: ...
+    def contacts(self, **options: Any) -> Contacts: ...
+    def compare(self, **options: Any) -> Comparison: ...
+    def stream(self, **options: Any) -> Iterator[StreamFrame]: ...
+
+def open(source: Source, **options: Any) -> Opened: ...
 def stream(source: Source, **options: Unpack[_Run]) -> Iterator[StreamFrame]: ...
 def contacts(source: Source, *, cutoff: Cutoffs, verbose: bool = False, **options: Unpack[_Contacts]) -> Contacts: ...
 def contacts_of_replicas(replicas: Sequence[Source], *, cutoff: Cutoffs, verbose: bool = False,
