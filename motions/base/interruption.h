@@ -34,17 +34,16 @@ class InterruptionCheck {
   InterruptionCheck* outer_;
 };
 
-/// The request to end the input that a running simulation sends, as on Ctrl-C. The frames read until then
-/// stay valid. It is a request to the whole process.
-class LiveEndRequest {
- public:
-  /// May be called by a signal handler.
-  static void set(bool requested) noexcept { requested_.store(requested, std::memory_order_relaxed); }
-  [[nodiscard]] static bool is_set() noexcept { return requested_.load(std::memory_order_relaxed); }
+namespace live_end {
+inline constinit std::atomic<bool> requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+}  // namespace live_end
 
- private:
-  static inline std::atomic<bool> requested_ = false;
-  static_assert(std::atomic<bool>::is_always_lock_free);
-};
+/// Asks all readers of running simulations in this process to end, so that the results of what was seen are
+/// written. May be called by a signal handler.
+inline void request_live_end() noexcept { live_end::requested = true; }
+/// Withdraws the request, before the next simulation is followed.
+inline void withdraw_live_end() noexcept { live_end::requested = false; }
+[[nodiscard]] inline bool live_end_requested() noexcept { return live_end::requested; }
 
 }  // namespace kds

@@ -1,15 +1,15 @@
 #pragma once
-// Who waits for whom while a run follows a simulation.
+// What is known of a running simulation whose frames are followed.
 
 #include <cstddef>
 
 namespace kds {
 
 struct LiveState {
-  std::size_t received = 0, taken = 0;  ///< frames that have arrived, and those that the run has read
-  double seconds_waited = 0;            ///< the run waited for frames
-  /// The memory for received frames was full, so that the simulation may have waited for the run.
-  double seconds_full = 0;
+  std::size_t received = 0;   ///< frames that have arrived whole
+  std::size_t taken = 0;      ///< frames that were handed out or passed over
+  double seconds_waited = 0;  ///< kds waited for frames
+  double seconds_full = 0;    ///< no frame had room any more, so the simulation may have waited for kds
 };
 
 }  // namespace kds
