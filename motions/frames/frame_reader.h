@@ -61,17 +61,19 @@ class FrameReader {
   /// the frames between come as well. `frame.asked` is true before the call, and the reader sets it to false
   /// for a frame between. Throws InputError naming file and frame.
   [[nodiscard]] virtual bool next(FrameRead& frame) = 0;
-  /// Starts again at the first frame. A live reader (FramesOpened::live) can do so until a second frame has
-  /// been read.
+  /// Starts again at the first frame. A reader of a running simulation can do so only until its second frame
+  /// has been read.
   virtual void rewind() = 0;
-  /// Ends the reading. A live reader leaves the simulation to itself.
+
+  /// Ends the reading of a running simulation before its end. A reader of a file does nothing.
   virtual void close() {}
-  /// Returns lines about the frames, known once the last one has been read.
+  /// Returns lines about how the frames came and ended, each with the input's name. If `is_cut`, the first
+  /// says why. Complete once `next` has returned false.
   [[nodiscard]] virtual std::vector<std::string> closing_notes() const { return {}; }
-  /// Returns whether frames are missing at the end because the connection broke.
+  /// Returns whether the connection to the simulation broke before the last frame asked for.
   [[nodiscard]] virtual bool is_cut() const { return false; }
-  /// Returns who waits for whom, or nothing if the reader is not live.
-  [[nodiscard]] virtual std::optional<LiveState> live() const { return std::nullopt; }
+  /// Returns the state of the running simulation, nothing for a file. May be called at any time.
+  [[nodiscard]] virtual std::optional<LiveState> live() const { return {}; }
 };
 
 /// An open file of frames.
@@ -87,7 +89,8 @@ struct FramesOpened {
   bool chain_like = true;  ///< consecutive beads are meant to be bonded
   bool truncated = false;  ///< frames are missing at the end (FramesAsked)
   bool at_rest = false;    ///< the file holds only one frame
-  bool live = false;       ///< a simulation sends the frames while it runs; `next` waits for them
+  /// A running simulation makes the frames: `next` waits for them, and their number is unknown.
+  bool live = false;
   std::unique_ptr<FrameReader> frames;
 };
 

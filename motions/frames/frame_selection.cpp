@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
@@ -66,6 +67,10 @@ FramesAsked select_frames(const std::string& file, const FrameRange& range, cons
   if (range.stride == 0) throw InputError(frames_argument(), "the stride must be at least 1");
   if (range.last && *range.last <= range.first)
     throw InputError(frames_argument(), fmt::format("no frame lies in {}:{}", range.first, *range.last));
+  if (held.open) {
+    const std::size_t end = range.last.value_or(std::numeric_limits<std::size_t>::max());
+    return {range.first, range.stride, 1 + (end - 1 - range.first) / range.stride};
+  }
   const std::size_t last = range.last.value_or(held.whole);
   const bool meets_damage = held.damage && (!range.last || last > held.whole);
   if (meets_damage) {

@@ -36,13 +36,14 @@ class DamagedFrame : public InputError {
 /// Returns the warning that only the frames before the damaged one are read.
 [[nodiscard]] std::string warning_of(const DamagedFrame& damage);
 
-/// The frames that a file contains.
+/// The frames that a file contains, or that a running simulation makes.
 struct FramesHeld {
   std::size_t whole = 0;
   bool ends_inside = false;                 ///< the file ends inside the frame after the whole ones
   std::uint64_t end = 0;                    ///< if it does: the file's length in bytes, unpacked
   std::optional<DamagedFrame> damage = {};  ///< damage in the frame after the whole ones
   bool lacks_line_end = false;              ///< if it ends inside: its last number may be cut off
+  bool open = false;  ///< a simulation makes the frames: their number is unknown, all else is unset
 };
 
 /// The numbers of the requested frames, ascending: first, first + stride, ...
@@ -83,7 +84,8 @@ class FrameWalk {
 /// A file that ends inside its last frame gives the whole frames before it, with a warning. Throws
 /// DamagedFrame if a frame asked for, or any frame of an open range, is damaged; `until_damage` reads the
 /// frames before it instead, with a warning. Warns of frames after the last one that a stride meets. If a
-/// file has one frame, the frame is taken whatever the range is, and the necklace is at rest.
+/// file has one frame, the frame is taken whatever the range is, and the necklace is at rest. If the frames
+/// are open, returns all of the range; frames without an end have a count that no walk reaches.
 [[nodiscard]] FramesAsked select_frames(const std::string& file, const FrameRange& range,
                                         const FramesHeld& held, bool until_damage,
                                         std::vector<std::string>& warnings);

@@ -171,10 +171,15 @@ void take_own_elements(const AtomFrames& frames, const ChosenAtoms& atoms, Frame
 class ChosenFrames final : public FrameReader {
  public:
   ChosenFrames(std::unique_ptr<AtomFrames> frames, std::vector<std::size_t> atoms, const FramesAsked& asked)
-      : frames_(std::move(frames)), atoms_(std::move(atoms)), walk_(asked, frames_->may_have_cell()) {}
+      : frames_(std::move(frames)), atoms_(std::move(atoms)), walk_(asked, frames_->may_have_cell()) {
+    frames_->choose(atoms_);
+  }
 
   bool next(FrameRead& frame) override {
-    if (!walk_.next()) return false;
+    if (!walk_.next() || !frames_->wait_for(walk_.frame())) {
+      frames_->close();
+      return false;
+    }
     frame.asked = walk_.is_asked();
     frame.stamp = {walk_.frame(), std::nullopt};
     frame.cell.reset();
@@ -182,6 +187,11 @@ class ChosenFrames final : public FrameReader {
     return true;
   }
   void rewind() override { walk_.rewind(); }
+
+  void close() override { frames_->close(); }
+  [[nodiscard]] std::vector<std::string> closing_notes() const override { return frames_->closing_notes(); }
+  [[nodiscard]] bool is_cut() const override { return frames_->is_cut(); }
+  [[nodiscard]] std::optional<LiveState> live() const override { return frames_->live(); }
 
  private:
   std::unique_ptr<AtomFrames> frames_;
@@ -202,8 +212,9 @@ FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptio
   opened.at_rest = asked.at_rest;
   for (const std::string& note : frames->notes())
     opened.warnings.push_back(fmt::format("{}: {}", opened.file, note));
+  opened.live = held.open;
   FrameRead first;
-  frames->read(asked[0], {}, first);
+  if (!opened.live) frames->read(asked[0], {}, first);
   ChosenAtoms atoms = choose_atoms(opened.file, options, *frames, opened.warnings);
   opened.element_radii = std::move(atoms.element_radii);
   opened.element_lack = std::move(atoms.element_lack);

@@ -1,12 +1,13 @@
 #pragma once
 // Trajectory formats whose frames are arrays of atoms without residues: DCD, XTC, TRR, AMBER NetCDF, LAMMPS
-// dumps, XYZ. A reader of such a format is one class derived from AtomFrames and one line of registration
-// (reader_registry.cpp). Which frames and atoms become frames of beads, and what a topology says about the
-// atoms, is decided here for all of them.
+// dumps, XYZ, and the frames of running simulations. A reader of such a format is one class derived from
+// AtomFrames and one line of registration (reader_registry.cpp). Which frames and atoms become frames of
+// beads, and what a topology says about the atoms, is decided here for all of them.
 
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,14 @@ class AtomFrames {
   /// where the format allows it. A size in a header must not be believed before it is compared with the
   /// file's size.
   [[nodiscard]] virtual FramesHeld held() const = 0;
+  /// Says which atoms all calls of `read` will ask for. Called once, before the first `wait_for`.
+  virtual void choose(std::span<const std::size_t> atoms) { static_cast<void>(atoms); }
+  /// Waits until frame k is there, if a running simulation makes the frames. Returns false after the last
+  /// one. Called before each `read` with the same k.
+  [[nodiscard]] virtual bool wait_for(std::size_t k) {
+    static_cast<void>(k);
+    return true;
+  }
   /// Returns whether a frame may have a cell. If none can, frames between those asked for are not read.
   [[nodiscard]] virtual bool may_have_cell() const = 0;
   /// Reads frame k: its time, its cell, and the position of each of `atoms` (a column each, in angstrom).
@@ -48,6 +57,12 @@ class AtomFrames {
   [[nodiscard]] virtual std::vector<std::size_t> ids() const { return {}; }
   /// Returns lines about how the file is read, each without the file's name.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
+
+  /// As in FrameReader, for running simulations.
+  virtual void close() {}
+  [[nodiscard]] virtual std::vector<std::string> closing_notes() const { return {}; }
+  [[nodiscard]] virtual bool is_cut() const { return false; }
+  [[nodiscard]] virtual std::optional<LiveState> live() const { return {}; }
 };
 
 /// Returns the frames of beads that `options` ask for: all atoms, or those that the selection takes from the

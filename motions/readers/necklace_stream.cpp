@@ -447,16 +447,23 @@ void NecklaceStream::note_apart(const FrameRead& frame) {
 bool NecklaceStream::next(FrameRead& frame) {
   const FloatingPointScope to_nearest;
   if (ended_) return false;
+  const auto holds_two = [&] { return last_read_ && *last_read_ != heads_.front().frame_number(0); };
   try {
-    return read(frame);
+    if (read(frame)) return true;
   } catch (const InputError& error) {
-    opened_.frames->close();
-    if (!until_damage_ || !last_read_) throw;
-    damage_ =
-        fmt::format("{}; frames up to {} are read ({})", error.what(), *last_read_, "--until-damage"_arg);
-    ended_ = true;
-    return false;
+    close();
+    if (is_live() ? !holds_two() : !until_damage_ || !last_read_) throw;
+    damage_ = fmt::format("{}; frames up to {} are read", error.what(), *last_read_);
+    if (!is_live()) damage_ += fmt::format(" ({})", "--until-damage"_arg);
   }
+  ended_ = true;
+  if (!is_live() || holds_two()) return false;
+  const std::vector<std::string> notes = opened_.frames->closing_notes();
+  throw InputError(fmt::format("{}; expected two frames at least",
+                               opened_.frames->is_cut()
+                                   ? notes.front()
+                                   : fmt::format("{}: the frames have ended after frame {}", opened_.file,
+                                                 heads_.front().frame_number(0))));
 }
 
 bool NecklaceStream::read(FrameRead& frame) {
@@ -528,6 +535,8 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
     for (const std::string& note : opened_.frames->closing_notes())
       lines.push_back(fmt::format("{}: {}", opened_.file, note));
     if (!damage_.empty()) lines.push_back(damage_);
+    const std::vector<std::string> closing = opened_.frames->closing_notes();
+    lines.insert(lines.end(), closing.begin(), closing.end());
     if (has_times_)
       lines.push_back(fmt::format("{}: has times of its own, which {} {} replaces", opened_.file, "--dt"_arg,
                                   *time_step_));

@@ -40,7 +40,16 @@ class NecklaceStream {
   /// Reads the next frame of all necklaces, side by side. Returns false after the last frame. Throws
   /// InputError as the constructor does.
   [[nodiscard]] bool next(FrameRead& frame);
+  /// Starts again at the first frame. Possible for a running simulation only until its second frame is read.
   void rewind();
+  /// Returns whether a running simulation makes the frames. Then `next` waits for them. It throws InputError
+  /// if fewer than two frames come. After these, whatever breaks the frames off ends them: `next` returns
+  /// false, `warnings` says why, and `is_truncated` is true.
+  [[nodiscard]] bool is_live() const { return opened_.live; }
+  /// Disconnects from the running simulation, if there is one. `next` does so after the last frame.
+  void close() { opened_.frames->close(); }
+  /// Returns the state of the running simulation, nothing for a file.
+  [[nodiscard]] std::optional<LiveState> live() const { return opened_.frames->live(); }
   /// Returns whether consecutive beads are meant to be bonded.
   [[nodiscard]] bool chain_like() const { return chain_like_; }
   /// Returns whether the file has only one frame, whatever ReadOptions::frames selects. A file that is
@@ -48,14 +57,11 @@ class NecklaceStream {
   [[nodiscard]] bool holds_one_frame() const { return opened_.at_rest; }
   /// Returns the warnings about a necklace. The warnings are complete once all frames have been read.
   [[nodiscard]] std::vector<std::string> warnings(std::size_t necklace) const;
-  /// Returns whether frames are missing at the end: the file ends inside a frame, or a damaged frame has
-  /// ended the reading. Complete once all frames have been read.
+  /// Returns whether frames are missing at the end: the file ends inside a frame, a damaged frame has ended
+  /// the reading, or the connection to a simulation broke. Complete once all frames have been read.
   [[nodiscard]] bool is_truncated() const {
     return opened_.truncated || !damage_.empty() || opened_.frames->is_cut();
   }
-  /// Returns whether a running simulation sends the frames (FramesOpened::live).
-  [[nodiscard]] bool is_live() const { return opened_.live; }
-  [[nodiscard]] std::optional<LiveState> live() const { return opened_.frames->live(); }
 
  private:
   /// Findings about one necklace, for its warnings.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,6 +59,13 @@ struct ReadOptions {
   std::optional<double> patience = {};
   std::optional<unsigned> rate = {};   ///< N: a running simulation is asked to send every Nth step
   std::vector<Selection> groups = {};  ///< groups of the selected beads, at most eight (BeadGroups)
+
+  // For running simulations (imd_reader.h); readers of files leave these unread.
+  /// The last time that is read, in picoseconds; for frames without times the last frame's number.
+  std::optional<double> until = {};
+  double patience = 60;                ///< seconds to wait for the connection, and for each frame
+  std::optional<unsigned> rate = {};   ///< asks the simulation to send every rate-th step, from 1
+  std::function<void()> on_wait = {};  ///< called once if the simulation does not listen yet
 };
 
 }  // namespace kds

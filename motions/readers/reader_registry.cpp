@@ -13,6 +13,7 @@
 #include "motions/readers/atom_frames.h"
 #include "motions/readers/dcd_reader.h"
 #include "motions/readers/gro_reader.h"
+#include "motions/readers/imd_reader.h"
 #include "motions/readers/lammps_reader.h"
 #include "motions/readers/netcdf_reader.h"
 #include "motions/readers/pdb_reader.h"
@@ -54,6 +55,7 @@ void add_own_readers(ReaderRegistry& own) {
   own.add(atom_format("lammps", {".lammpstrj", ".dump", ".lammpsdump"}, looks_like_lammps, open_lammps));
   own.add(atom_format("xtc", {".xtc"}, looks_like_xtc, open_xtc));
   own.add(atom_format("trr", {".trr"}, looks_like_trr, open_trr));
+  own.add(atom_format("imd", {}, nullptr, open_imd));
 }
 
 bool has_ending(const ReaderSpec& reader, const std::string& ending) {
@@ -107,9 +109,12 @@ const ReaderSpec* ReaderRegistry::find_by_ending(const std::filesystem::path& pa
 
 const ReaderSpec* ReaderRegistry::find(const std::filesystem::path& path,
                                        const std::optional<std::string>& format) const {
-  if (format) {
+  const bool is_live = is_live_address(path);
+  if (is_live && format && *format != "imd")
+    throw InputError("--format", fmt::format("{} has the format imd, found {}", path.string(), *format));
+  if (format || is_live) {
     for (const ReaderSpec& reader : readers_)
-      if (reader.name == *format) return &reader;
+      if (reader.name == format.value_or("imd")) return &reader;
     throw InputError("--format", fmt::format("expected {}, found {}", listed(names()), in_quotes(*format)));
   }
   const ReaderSpec* const by_ending = find_by_ending(path);

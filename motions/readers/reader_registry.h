@@ -35,8 +35,9 @@ class ReaderRegistry {
   /// Adds a reader. Throws std::logic_error if another reader has its name or one of its endings.
   void add(ReaderSpec reader);
   /// Returns the reader called `format`; without it, the one that recognises the file's first bytes, else the
-  /// one with the file's ending, else null. Throws InputError if the file cannot be opened, or if no reader
-  /// is called `format`.
+  /// one with the file's ending, else null. The address of a running simulation has the reader imd. Throws
+  /// InputError if the file cannot be opened, if no reader is called `format`, or if a format of files is
+  /// given for an address.
   [[nodiscard]] const ReaderSpec* find(const std::filesystem::path& path,
                                        const std::optional<std::string>& format = {}) const;
   /// Returns the reader with the file's ending, or null.
