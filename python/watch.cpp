@@ -56,9 +56,9 @@ void Watch::call() {
   try {
     const py::gil_scoped_acquire gil;
     if (PyErr_CheckSignals() != 0) {
-      if (!LiveFrames::any_open() || LiveEndRequest::is_set()) throw py::error_already_set();
+      if (!LiveFrames::any_open() || live_end_requested()) throw py::error_already_set();
       PyErr_Clear();  // the first Ctrl-C ends the input and keeps what was seen
-      LiveEndRequest::set(true);
+      request_live_end();
     }
     if (progress_) progress_(done_, within_, total_);
   } catch (...) {

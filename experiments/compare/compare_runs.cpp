@@ -483,8 +483,12 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
   for (const FrameMotion motion : options.motions)
     for (const std::size_t stride : options.strides)
       for (const bool event_by_event : {false, true}) {
-        runs.push_back({run_of(options, 0, motion), stride, event_by_event, fan.branch(stride)});
-        runs.back().options.threads = 1;
+        LiveRun& run = runs.emplace_back();
+        run.options = run_of(options, 0, motion);
+        run.options.threads = 1;
+        run.stride = stride;
+        run.event_by_event = event_by_event;
+        run.frames = fan.branch(stride);
       }
   std::mutex mutex;
   std::exception_ptr error;

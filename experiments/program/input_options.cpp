@@ -11,6 +11,7 @@
 #include "experiments/program/option_values.h"
 #include "motions/base/input_error.h"
 #include "motions/base/input_file.h"
+#include "motions/live/live_address.h"
 #include "motions/readers/instance.h"
 #include "motions/readers/reader_registry.h"
 

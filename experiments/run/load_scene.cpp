@@ -13,6 +13,7 @@
 #include "motions/base/input_error.h"
 #include "motions/base/interruption.h"
 #include "motions/base/text_input.h"
+#include "motions/live/live_address.h"
 #include "motions/readers/bead_name.h"
 #include "motions/readers/pdb_reader.h"
 #include "motions/readers/reader_registry.h"
@@ -57,7 +58,7 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
 SignalsEndLiveInput::SignalsEndLiveInput(const InputOptions& options) : is_set_(is_live(options)) {
   if (!is_set_) return;
   struct sigaction action {};
-  action.sa_handler = [](int) { LiveEndRequest::set(true); };
+  action.sa_handler = [](int) { request_live_end(); };
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   for (const int signal : {SIGINT, SIGTERM}) static_cast<void>(::sigaction(signal, &action, nullptr));
 }
@@ -286,7 +287,7 @@ LiveInput open_live(const InputOptions& input, const std::function<void(const st
     throw InputError("--radius", fmt::format("auto is half of the longest bond of all frames, and {} is a "
                                              "running simulation; expected a length, element or file:PATH",
                                              file_names(input)));
-  LiveEndRequest::set(false);
+  withdraw_live_end();
   InputOptions opened = input;
   opened.reading.velocities = input.velocities == VelocitySource::file;
   auto frames = std::make_unique<LiveFrames>(open_frames(opened, warn));

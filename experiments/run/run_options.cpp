@@ -10,6 +10,7 @@
 #include "experiments/program/option_values.h"
 #include "experiments/run/certify_stride.h"
 #include "motions/base/input_error.h"
+#include "motions/live/live_address.h"
 #include "structures/session/structure_spec.h"
 
 namespace kds {

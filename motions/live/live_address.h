@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace kds {
 
@@ -11,6 +12,9 @@ struct LiveAddress {
   std::string host;  ///< a name or a number; an IPv6 number without its brackets
   std::string port;  ///< 1 to 65535
 };
+
+/// The form of an address, for messages.
+inline constexpr std::string_view live_example = "imd://HOST:PORT";
 
 /// Returns whether the path is an address rather than a file: it begins with "imd://". Looks at nothing else.
 [[nodiscard]] bool is_live_address(const std::filesystem::path& path);

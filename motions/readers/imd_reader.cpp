@@ -46,7 +46,7 @@ class ImdFrames final : public AtomFrames {
  public:
   ImdFrames(const std::filesystem::path& address, const ReadOptions& options)
       : name_(address.string()),
-        receiver_(parse_live_address(address), options.patience, options.rate, options.on_wait),
+        receiver_(parse_live_address(address), options.patience.value_or(60), options.rate, options.on_wait),
         until_(options.until),
         time_step_(options.time_step),
         steps_(options.rate) {

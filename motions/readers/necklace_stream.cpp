@@ -174,7 +174,6 @@ bool look_bonded(const Eigen::Matrix3Xd& beads, const std::vector<std::size_t>& 
 NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOptions& options)
     : opened_(open_frames(path, options)),
       time_step_(options.time_step),
-      until_(options.until),
       until_damage_(options.until_damage),
       heads_(heads_of(opened_)),
       notes_(heads_.size()) {
@@ -493,11 +492,6 @@ bool NecklaceStream::read(FrameRead& frame) {
     if (frame.stamp.picoseconds) has_times_ = true;
     frame.stamp.picoseconds = static_cast<double>(frame.stamp.number) * *time_step_;
   }
-  if (until_ && frame.stamp.picoseconds.value_or(static_cast<double>(frame.stamp.number)) > *until_) {
-    opened_.frames->close();
-    ended_ = true;
-    return false;
-  }
   note_time(frame.stamp);
   last_read_ = frame.stamp.number;
   note_cell(frame);
@@ -532,8 +526,6 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
   std::vector<std::string> lines;
   if (necklace == 0) {
     lines = opened_.warnings;
-    for (const std::string& note : opened_.frames->closing_notes())
-      lines.push_back(fmt::format("{}: {}", opened_.file, note));
     if (!damage_.empty()) lines.push_back(damage_);
     const std::vector<std::string> closing = opened_.frames->closing_notes();
     lines.insert(lines.end(), closing.begin(), closing.end());

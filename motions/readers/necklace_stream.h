@@ -119,7 +119,7 @@ class NecklaceStream {
   bool is_fluid_ = false;     ///< `unwrap_` is beads because of the first frame
   bool are_several_ = false;  ///< `unwrap_` is beads, and beads of the first frame are joined
   UnwrappedBeads paths_;      ///< if `unwrap_` is beads
-  std::optional<double> time_step_, until_;
+  std::optional<double> time_step_;
   bool until_damage_;
   std::vector<Trajectory> heads_;
   std::vector<Piece> pieces_;              ///< for all necklaces, in order

@@ -63,7 +63,8 @@ struct ReadOptions {
   // For running simulations (imd_reader.h); readers of files leave these unread.
   /// The last time that is read, in picoseconds; for frames without times the last frame's number.
   std::optional<double> until = {};
-  double patience = 60;                ///< seconds to wait for the connection, and for each frame
+  /// Seconds to wait for the connection, and for each frame; none: 60.
+  std::optional<double> patience = {};
   std::optional<unsigned> rate = {};   ///< asks the simulation to send every rate-th step, from 1
   std::function<void()> on_wait = {};  ///< called once if the simulation does not listen yet
 };

@@ -62,13 +62,6 @@ class ReaderRegistry {
   std::vector<ReaderSpec> readers_;
 };
 
-/// The address of a running simulation, for messages.
-inline constexpr std::string_view live_example = "imd://HOST:PORT";
-/// Returns whether an input is the address of a running simulation instead of a path.
-[[nodiscard]] inline bool is_live_address(const std::filesystem::path& input) {
-  return input.native().starts_with("imd://");
-}
-
 /// Returns the registry of the process. The registry holds the framework's own readers and those added before
 /// the first file is read.
 [[nodiscard]] ReaderRegistry& reader_registry();
