@@ -105,10 +105,7 @@ RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more,
     : memory_(std::move(memory)), options_(parse_run_options(arguments)), only_(more.only) {
   check_view(options_);
   const auto warn = [this](const std::string& warning) { warnings_.push_back(warning); };
-  {
-    const Watch watch;  // a running simulation may let it wait
-    scene_ = std::make_unique<Scene>(load_scene(options_, warn));
-  }
+  scene_ = std::make_unique<Scene>(load_scene(options_, warn));
   open();
 }
 

@@ -100,13 +100,14 @@ CompareOptions parse_compare_options(const Arguments& arguments) {
   const ParsedArguments parsed =
       read_arguments(with_inputs(kCompareCommand, true), compare_options(), arguments, options);
   take_inputs(parsed, kCompareCommand.name, options);
+  options.takes_live = true;
   return options;
 }
 
 int compare_command(const Arguments& arguments) {
   const CompareOptions options = parse_compare_options(arguments);
   TableCommand command("compare", arguments, options, "step");
-  check_inputs_exist(options, true);
+  check_inputs_exist(options);
   const SignalsEndLiveInput on_signal(options);
   TakenPaths taken;
   taken.read(options);

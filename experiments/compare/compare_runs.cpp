@@ -477,6 +477,7 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
   };
   RunOptions first = run_of(options, 0, options.motions.front());
   first.velocities = options.velocities;
+  first.takes_live = true;
   LiveInput live = open_live(first, warn);
   FrameFan fan(*live.frames);
   std::vector<LiveRun> runs;

@@ -155,6 +155,7 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
   O options;
   const ParsedArguments parsed = read_arguments(with_inputs(kContactsCommand), list, arguments, options);
   take_inputs(parsed, kContactsCommand.name, options.task);
+  options.task.takes_live = true;
   const ContactsTask& task = options.task;
   if (task.distances.lengths.empty())
     throw InputError(
@@ -187,7 +188,7 @@ int contacts_command(const Arguments& arguments) {
   const ContactsOptions options = parse_contacts_options(arguments);
   const ContactsTask& task = options.task;
   TableCommand command("contacts", arguments, options.destinations, "step");
-  check_inputs_exist(task, true);
+  check_inputs_exist(task);
   const SignalsEndLiveInput on_signal(task);
   TakenPaths taken;
   taken.read(task);

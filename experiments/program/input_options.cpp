@@ -424,19 +424,9 @@ Json input_json(const InputOptions& options, InputSize size, std::span<const dou
 
 bool is_live(const InputOptions& options) { return std::ranges::any_of(options.inputs, is_live_address); }
 
-void check_inputs_exist(const InputOptions& options, bool takes_live) {
-  for (const std::filesystem::path& input : options.inputs) {
-    if (!is_live_address(input)) {
-      check_exists(input);
-    } else if (!takes_live) {
-      throw InputError(
-          fmt::format("{}: only kds run, contacts and compare follow a running simulation; "
-                      "expected a file",
-                      input.string()));
-    }
-  }
-  if (std::ranges::count_if(options.inputs, is_live_address) > 1)
-    throw InputError("two inputs are running simulations; expected one, and files of one frame beside it");
+void check_inputs_exist(const InputOptions& options) {
+  for (const std::filesystem::path& input : options.inputs)
+    if (!is_live_address(input)) check_exists(input);
   if (options.reading.topology) check_exists(*options.reading.topology);
   for (const std::filesystem::path& topology : options.topologies)
     if (!topology.empty()) check_exists(topology);

@@ -34,6 +34,7 @@ struct InputOptions {
   std::optional<VelocitySource> velocities = {};  ///< --velocities; none: the file if they help (FrameSurvey)
   bool periodic = true;  ///< images of beads count where all frames have a cell; false: --no-periodic
   std::optional<std::filesystem::path> obstacle = {};  ///< --obstacle, for the commands that have it
+  bool takes_live = false;  ///< the command can follow a running simulation; others refuse such an input
 };
 
 /// Returns the options --topology, --select, --chain, --frames and --radius.
@@ -114,9 +115,9 @@ void add_ends(Json& input, const std::array<FrameStamp, 2>& ends);
 /// end.
 void check_exists(const std::filesystem::path& path);
 
-/// Throws InputError unless the inputs, the topology and the obstacle are regular files. One of the inputs
-/// may be the address of a running simulation if the command `takes_live`.
-void check_inputs_exist(const InputOptions& options, bool takes_live = false);
+/// Throws InputError unless the inputs, the topology and the obstacle are regular files. Inputs may also be
+/// addresses of running simulations.
+void check_inputs_exist(const InputOptions& options);
 /// Returns whether an input is the address of a running simulation.
 [[nodiscard]] bool is_live(const InputOptions& options);
 

@@ -208,7 +208,18 @@ bool takes_side_chains(const std::vector<NecklaceStream>& files, const Selection
                      [](const NecklaceStream& file) { return !file.chain_like(); });
 }
 
-void refuse_live_options(const InputOptions& options) {
+// Throws InputError if the command cannot follow a running simulation, or if options for one are given
+// without one.
+void check_live_options(const InputOptions& options) {
+  if (is_live(options)) {
+    if (!options.takes_live)
+      throw InputError(fmt::format(
+          "{}: only {} follow a running simulation, which gives each frame once; "
+          "expected a file",
+          file_names(options),
+          words("kds run, contacts and compare", "kds.run, kds.contacts, kds.compare and kds.stream")));
+    return;
+  }
   const ReadOptions& reading = options.reading;
   const std::string_view given = reading.until      ? "--until"
                                  : reading.patience ? "--patience"
@@ -224,7 +235,7 @@ void refuse_live_options(const InputOptions& options) {
 std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
                                         const std::function<void(const std::string&)>& warn,
                                         std::size_t stride) {
-  if (!is_live(options)) refuse_live_options(options);
+  check_live_options(options);
   std::vector<NecklaceStream> files;
   std::vector<InputAtoms> atoms;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
@@ -290,6 +301,10 @@ LiveInput open_live(const InputOptions& input, const std::function<void(const st
   withdraw_live_end();
   InputOptions opened = input;
   opened.reading.velocities = input.velocities == VelocitySource::file;
+  if (!opened.reading.on_wait)
+    opened.reading.on_wait = [&] {
+      warn(fmt::format("{} does not listen yet; trying again", file_names(input)));
+    };
   auto frames = std::make_unique<LiveFrames>(open_frames(opened, warn));
   FrameSurvey survey = frames->survey();
   if (opened.reading.velocities && !survey.velocities)

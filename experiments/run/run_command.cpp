@@ -14,7 +14,7 @@ namespace kds {
 namespace {
 
 void check_before_run(const RunOptions& options) {
-  check_inputs_exist(options, true);
+  check_inputs_exist(options);
   TakenPaths paths;
   paths.read(options);
   paths.write(options);

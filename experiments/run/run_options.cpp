@@ -232,6 +232,7 @@ RunOptions parse_run_options(const Arguments& arguments) {
   const ParsedArguments parsed =
       read_arguments(with_inputs(kRunCommand, true), run_options(), arguments, options);
   take_inputs(parsed, kRunCommand.name, options);
+  options.takes_live = true;
   options.distances.check();
   if (options.certify && !options.tolerance)
     refuse_needless_certificate(options, ", or " + "--tolerance"_arg);

@@ -53,11 +53,6 @@ struct ReadOptions {
   /// (SequenceInCell).
   std::optional<Unwrap> unwrap = {};
   bool velocities = false;  ///< velocities are read, where a format has them
-  /// Ends before the first frame that is later, in picoseconds; by the number of the frame if it has no time.
-  std::optional<double> until = {};
-  /// Seconds to wait for a running simulation, for the connection and for each frame; none: 60.
-  std::optional<double> patience = {};
-  std::optional<unsigned> rate = {};   ///< N: a running simulation is asked to send every Nth step
   std::vector<Selection> groups = {};  ///< groups of the selected beads, at most eight (BeadGroups)
 
   // For running simulations (imd_reader.h); readers of files leave these unread.

@@ -216,11 +216,10 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   const FloatingPointScope to_nearest;
   const std::vector<NecklaceBeads>& necklaces = frames.necklaces();
   if (frames.is_open())
-    throw InputError(fmt::format(
-        "{}: a running simulation gives each frame once, which serves {}; expected a "
-        "file",
-        necklaces.front().file,
-        words("kds run, contacts and compare", "kds.run, kds.contacts, kds.compare and kds.stream")));
+    throw InputError(
+        fmt::format("{}: frames come one by one, and cannot be surveyed before the run; expected a "
+                    "file",
+                    necklaces.front().file));
   FrameSurvey survey;
   PlaneSearch planes, planes_of_positions;
   CellSurvey cells;

@@ -262,7 +262,9 @@ def _stream_frames(source, options):
     run._open(source, {**options, "pull": True})
     run._core.build()
     yield StreamFrame(*run._core.stamp(0), run._core.take_events(), run, 0)
-    for k, events in enumerate(iter(run.step, None), 1):
+    k = 0
+    while (events := run.step()) is not None:
+        k += 1
         yield StreamFrame(*run._core.stamp(k), events, run, k)
     run.finish()
     warn(run._core.live_warnings())

@@ -1,0 +1,138 @@
+"""Running simulations as inputs: a server on the loopback address sends frames that are known."""
+
+import os
+import signal
+import sys
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import kds
+from data import DCD, PDB
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "live"))
+from imd_server import listen, serve  # noqa: E402
+
+
+def wandering(frames=30, beads=12, seed=3):
+    """Returns positions that float32 holds."""
+    steps = np.random.default_rng(seed).normal(scale=0.4, size=(frames, beads, 3))
+    return (3 * np.arange(beads)[:, None] % 7 + steps.cumsum(axis=0)).astype(np.float32)
+
+
+class Simulation:
+    """Sends frames to the next client, on a thread. `pause` seconds pass before each frame."""
+
+    def __init__(self, frames, pause=0, **options):
+        self.listener = listen()
+        self.address = f"imd://127.0.0.1:{self.listener.getsockname()[1]}"
+
+        def slowly():
+            for frame in frames:
+                time.sleep(pause)
+                yield frame
+
+        def run():
+            self.sent, self.messages = serve(slowly(), self.listener, **options)
+
+        self.thread = threading.Thread(target=run)
+
+    def __enter__(self):
+        self.thread.start()
+        return self.address
+
+    def __exit__(self, *raised):
+        self.thread.join(20)
+        self.listener.close()
+
+
+class LiveRuns(unittest.TestCase):
+    def test_events_are_those_of_the_array(self):
+        positions = wandering()
+        for version in (2, 3):
+            for motion in ("linear", "hermite"):
+                expected = kds.run(positions, radius=1.2, structures=["power", "contacts"], motion=motion)
+                with Simulation(positions, version=version) as address:
+                    found = kds.run(address, radius=1.2, structures=["power", "contacts"], motion=motion)
+                self.assertEqual(found.fingerprint, expected.fingerprint)
+                self.assertEqual(found.frame_count, len(positions))
+                np.testing.assert_array_equal(found.events["beads"], expected.events["beads"])
+                self.assertEqual(np.isnan(found.times).all(), version == 2)
+
+    def test_velocities_and_cells_of_version_3(self):
+        positions, box = wandering(), np.diag([30.0, 31.0, 32.0])
+        velocities = np.random.default_rng(4).normal(size=positions.shape).astype(np.float32)
+        frames = list(zip(positions, velocities, [box] * len(positions)))
+        times = 0.5 * np.arange(len(positions))
+        expected = kds.run(positions, radius=1.2, structures=["contacts"], motion="hermite", velocities=velocities,
+                           times=times)
+        with Simulation(frames, version=3, dt=0.5) as address:
+            found = kds.run(address, radius=1.2, structures=["contacts"], motion="hermite", velocities="file",
+                            no_periodic=True, unwrap="none")
+        self.assertEqual(found.fingerprint, expected.fingerprint)
+        np.testing.assert_array_equal(found.times, times)
+
+    def test_contacts_streams_and_comparisons(self):
+        positions = wandering()
+        simulation = Simulation(positions, version=3)
+        live = kds.open(simulation.address, radius=1.2)
+        with simulation:
+            found = live.contacts(cutoff=2.5, by="bead", apart=1)
+        expected = kds.contacts(positions, cutoff=2.5, by="bead", apart=1, times=0.002 * np.arange(len(positions)))
+        self.assertEqual(len(found.intervals), len(expected.intervals))
+        self.assertGreater(len(found.intervals), 10)
+        np.testing.assert_allclose(found.intervals["begin_frame"], expected.intervals["begin_frame"])
+
+        with Simulation(positions) as address:
+            counts = [len(frame.events) for frame in kds.stream(address, radius=1.2, structures=["power"])]
+        run = kds.run(positions, radius=1.2, structures=["power"])
+        self.assertEqual(counts, np.bincount(run.events["step"] + 1, minlength=len(positions)).tolist())
+
+        options = dict(radius=1.2, structures=["power", "contacts"], strides=[1, 3], motions=["linear", "hermite"])
+        with Simulation(positions) as address:
+            found = kds.compare(address, **options)
+        expected = kds.compare(positions, rounds=1, **options)
+        for one, other in zip(found.rows, expected.rows, strict=True):
+            for name in ("structure", "stride", "motion", "steps", "events", "net_changes", "created_per_event"):
+                self.assertEqual(one[name], other[name])
+
+    def test_it_chooses_atoms_and_frames_as_they_arrive(self):
+        expected = kds.run(DCD, topology=PDB, select="ca", radius=2, structures=["contacts"], start=2, stop=40, step=3)
+        import MDAnalysis
+
+        universe = MDAnalysis.Universe(PDB, DCD)
+        frames = [frame.positions.copy() for frame in universe.trajectory[:50]]
+        with Simulation(frames) as address:
+            found = kds.run(address, topology=PDB, select="ca", radius=2, structures=["contacts"], start=2, stop=40, step=3)
+        self.assertEqual(found.fingerprint, expected.fingerprint)
+        np.testing.assert_array_equal(found.frames, expected.frames)
+
+    def test_ctrl_c_ends_the_input_and_keeps_what_was_seen(self):
+        positions = np.concatenate([wandering()] * 200)
+        with Simulation(positions, pause=0.01) as address:
+            threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+            found = kds.run(address, radius=1.2, structures=["contacts"])
+        self.assertGreater(found.frame_count, 2)
+        self.assertLess(found.frame_count, 1000)
+
+    def test_until_and_what_is_refused(self):
+        positions = wandering()
+        with Simulation(positions, version=3) as address:
+            self.assertEqual(kds.run(address, radius=1, structures=["contacts"], until=0.02).frame_count, 11)
+        for options, line in ((dict(), "radius: auto is half"), (dict(radius=1, tolerance=0.1), "tolerance: needs")):
+            with self.assertRaisesRegex(kds.InputError, line):
+                kds.run("imd://127.0.0.1:1", structures=["contacts"], patience=0.2, **options)
+        for function in (kds.collide, kds.voids, kds.trade, kds.conditions):
+            with self.assertRaisesRegex(kds.InputError, "gives each frame once"):
+                function("imd://127.0.0.1:1", radius=1)
+        with self.assertRaisesRegex(kds.InputError, "until: is for a running simulation"):
+            kds.run(positions, radius=1, until=3)
+        with self.assertRaisesRegex(kds.InputError, "imd://127.0.0.1:1"):
+            kds.run("imd://127.0.0.1:1", radius=1, patience=0.2)
+
+
+if __name__ == "__main__":
+    unittest.main()
