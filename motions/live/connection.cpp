@@ -139,7 +139,8 @@ std::size_t Connection::read(std::span<char> to) {
     const Waited waited = wait_until_ready(socket_, POLLIN, deadline_, &stopped_);
     if (waited == Waited::too_long || Clock::now() >= deadline_)
       throw BrokenConnection(
-          fmt::format("not all of it has come within {} s ({} S waits longer)", patience_, "--patience"_arg));
+          fmt::format("the simulation is silent or too slow, waited {} s ({} S waits longer)", patience_,
+                      "--patience"_arg));
   }
 }
 

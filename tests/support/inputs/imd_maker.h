@@ -33,7 +33,7 @@ struct ImdMaker {
 
   static float coordinate(std::size_t k, std::size_t atom, std::size_t axis) {
     return 3.8F * static_cast<float>(atom) * static_cast<float>(axis == 0) +
-           0.37F * static_cast<float>((k * 7 + atom * 3 + axis) % 11);
+           0.0137F * static_cast<float>((k * 7 + atom * 3 + axis) % 11);
   }
   static float velocity(std::size_t k, std::size_t atom, std::size_t axis) {
     return -0.1F * coordinate(k, atom, axis);
