@@ -354,7 +354,8 @@ std::string input_name(const InputOptions& options, std::size_t input) {
 
 std::string file_names(const InputOptions& options) {
   std::vector<std::string> names;
-  for (const auto& input : options.inputs) names.push_back(input.filename().string());
+  for (const auto& input : options.inputs)
+    names.push_back((is_live_address(input) ? input : input.filename()).string());
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
