@@ -21,6 +21,8 @@ namespace {
 using namespace test;
 using ::testing::HasSubstr;
 
+using Linear = BezierMotion<3, 1>;
+using Cubic = BezierMotion<3, 3>;
 constexpr std::size_t beads = 6;
 
 /// Frames of six beads at random places, two picoseconds apart.
@@ -37,9 +39,8 @@ std::vector<FrameRead> some_frames(std::size_t count, bool in_cell = false) {
 }
 
 std::unique_ptr<LiveFrames> live(std::vector<FrameRead> frames, bool broken = false) {
-  return std::make_unique<LiveFrames>(
-      std::make_unique<FramesOneByOne>(std::vector<NecklaceBeads>{{.file = "sim", .count = beads}},
-                                       std::move(frames), broken));
+  return std::make_unique<LiveFrames>(std::make_unique<FramesOneByOne>(
+      std::vector<NecklaceBeads>{{.file = "sim", .count = beads}}, std::move(frames), broken));
 }
 
 Scene scene_of(std::unique_ptr<LiveFrames> frames, FrameMotion motion) {
@@ -79,14 +80,13 @@ TEST(LiveFrames, GiveTheStepsOfTheSameFramesInMemory) {
   EXPECT_TRUE(linear.is_live());
   EXPECT_EQ(linear.frame_count(), 2U);  // those of the first step
   EXPECT_EQ(linear.frames(), nullptr);
-  EXPECT_EQ(control_points<BezierMotion<3, 1>>(linear),
-            control_points<BezierMotion<3, 1>>(kept(FrameMotion::linear)));
+  EXPECT_EQ(control_points<Linear>(linear), control_points<Linear>(kept(FrameMotion::linear)));
   EXPECT_EQ(linear.frame_count(), 9U);
   EXPECT_EQ(linear.stamp(0).picoseconds, 0.0);
   EXPECT_EQ(linear.stamp(8).picoseconds, 16.0);
   EXPECT_EQ(linear.live()->taken, 9U);
-  EXPECT_EQ(control_points<BezierMotion<3, 3>>(scene_of(live(some_frames(9)), FrameMotion::hermite)),
-            control_points<BezierMotion<3, 3>>(kept(FrameMotion::hermite)));
+  EXPECT_EQ(control_points<Cubic>(scene_of(live(some_frames(9)), FrameMotion::hermite)),
+            control_points<Cubic>(kept(FrameMotion::hermite)));
 }
 
 TEST(LiveFrames, EndBeforeAFrameThatCannotBeUsed) {
