@@ -416,14 +416,37 @@ void OutputStream::close() {
   if (::close(std::exchange(buffer_.descriptor, -1)) != 0) fail_to_write(subject_, errno);
 }
 
+namespace {
+
+int open_unnamed_file() {
+  std::FILE* const file = std::tmpfile();
+  const int descriptor = file == nullptr ? -1 : ::fcntl(::fileno(file), F_DUPFD_CLOEXEC, 0);
+  if (file != nullptr) std::fclose(file);
+  if (descriptor < 0) fail_to_write("cannot make a temporary file", errno);
+  return descriptor;
+}
+
+}  // namespace
+
+UnnamedFile::UnnamedFile() : stream_(open_unnamed_file(), "cannot write a temporary file") {}
+
+void UnnamedFile::copy_to(std::ostream& other) {
+  stream_.flush();
+  stream_.check();
+  std::vector<char> block(std::size_t{1} << 16U);
+  ssize_t count = 0;
+  for (off_t at = 0; (count = ::pread(stream_.descriptor(), block.data(), block.size(), at)) > 0; at += count)
+    other.write(block.data(), count);
+  if (count < 0) fail_to_write("cannot read a temporary file", errno);
+}
+
 AtomicFiles::AtomicFiles() = default;
 AtomicFiles::~AtomicFiles() = default;
 
 AtomicFiles::AtomicFiles(const fs::path& directory, std::string_view option, bool replace)
-    : is_directory_(true), replace_(replace) {
-  const std::string subject = fmt::format("{} {}", option, directory.string());
-  require_replaceable(place_of(directory), subject, replace);
-  parts_.emplace_back(place_of(directory), subject);
+    : is_directory_(true), replace_(replace), subject_(fmt::format("{} {}", option, directory.string())) {
+  require_replaceable(place_of(directory), subject_, replace);
+  parts_.emplace_back(place_of(directory), subject_);
 }
 
 std::ostream& AtomicFiles::open(const fs::path& place) {
@@ -461,6 +484,25 @@ void AtomicFiles::write(const fs::path& place, std::string_view text) {
 
 void AtomicFiles::check() const {
   for (const OutputStream& file : open_) file.check();
+}
+
+std::optional<std::string> AtomicFiles::commit_and_begin_anew() {
+  const fs::path place = parts_.front().place;
+  std::optional<std::string> reason;
+  try {
+    require_replaceable(place, subject_, replace_);
+  } catch (const InputError& error) {
+    reason = error.what();
+  }
+  if (!reason) {
+    commit_together({this});
+    replace_ = true;
+  }
+  open_.clear();
+  names_.clear();
+  parts_.clear();
+  parts_.emplace_back(place, subject_);
+  return reason;
 }
 
 void AtomicFiles::finish() {

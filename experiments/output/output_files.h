@@ -83,6 +83,20 @@ class OutputStream final : public std::ostream {
   Buffer buffer_;
 };
 
+/// A file without a name, which is written piece by piece and copied at any time.
+class UnnamedFile {
+ public:
+  /// Throws OutputError if the system provides no temporary file.
+  UnnamedFile();
+  [[nodiscard]] std::ostream& stream() { return stream_; }
+  void check() const { stream_.check(); }
+  /// Copies what has been written so far.
+  void copy_to(std::ostream& other);
+
+ private:
+  OutputStream stream_;
+};
+
 struct PartFolder;  // PLACE.part
 
 /// Files that are kept only if commit_together is called. Every function throws an InputError or OutputError
@@ -106,6 +120,10 @@ class AtomicFiles {
   [[nodiscard]] std::ostream& open(const std::filesystem::path& place);
   /// Throws if a write to an open file failed, so that a long run can stop early.
   void check() const;
+  /// For the files of a directory: moves them to their place and begins the next result, which will replace
+  /// this one. If the place cannot be taken, because a file there has changed, drops the files and returns
+  /// the reason.
+  [[nodiscard]] std::optional<std::string> commit_and_begin_anew();
 
  private:
   friend void commit_together(std::initializer_list<AtomicFiles*> results);
@@ -113,6 +131,7 @@ class AtomicFiles {
   void take_places();
 
   bool is_directory_ = false, replace_ = false;
+  std::string subject_;          ///< of a directory, for messages
   std::string names_;            ///< of the files in the directory, one on a line
   std::list<PartFolder> parts_;  ///< of the directory, or of each file
   std::list<OutputStream> open_;

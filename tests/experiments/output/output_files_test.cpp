@@ -137,6 +137,28 @@ TEST(OutputFiles, AnEarlierResultIsReplacedOnRequestOnly) {
   EXPECT_EQ(directory.entries(), 1U);
 }
 
+TEST(OutputFiles, AFolderIsReplacedWhileACommandGoesOn) {
+  const ScratchDirectory directory;
+  AtomicFiles files(directory / "out", "--out", false);
+  UnnamedFile list;
+  for (const char* const line : {"a", "b"}) {
+    list.stream() << line;
+    list.copy_to(files.open("list"));
+    EXPECT_EQ(files.commit_and_begin_anew(), std::nullopt);
+    EXPECT_TRUE(std::filesystem::exists(directory / "out.part"));  // the place stays taken
+  }
+  EXPECT_EQ(content_of(directory / "out" / "list"), "ab");
+  static_cast<void>(directory.file("out/list", "mine"));
+  files.write("list", "abc");
+  EXPECT_THAT(files.commit_and_begin_anew(), testing::Optional(testing::HasSubstr("list there has changed")));
+  EXPECT_EQ(content_of(directory / "out" / "list"), "mine");
+  static_cast<void>(directory.file("out/list", "ab"));
+  files.write("list", "abcd");
+  commit_together({&files});
+  EXPECT_EQ(content_of(directory / "out" / "list"), "abcd");
+  EXPECT_EQ(directory.entries(), 1U);
+}
+
 TEST(OutputFiles, NothingOfTheUsersIsReplaced) {
   const ScratchDirectory directory;
   const fs::path folder = directory / "out";
