@@ -41,12 +41,14 @@ ProgressBar::ProgressBar(bool wanted, std::string_view counted, std::FILE* strea
 
 void ProgressBar::update(std::size_t done, double within, std::size_t total) {
   const Clock::time_point now = Clock::now();
-  if (stream_ == nullptr || total == 0 || now - drawn_ < kPause) return;
+  if (stream_ == nullptr || (total == 0 && !state_) || now - drawn_ < kPause) return;
   drawn_ = now;
   visible_ = true;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  std::fputs(fmt::format("\r{}\033[K", progress_line(counted_, done, within, total, seconds)).c_str(),
-             stream_);
+  const std::string line =
+      total == 0 ? fmt::format("{} {}, {}, {}", counted_, with_thousands(done), state_(), duration(seconds))
+                 : progress_line(counted_, done, within, total, seconds);
+  std::fputs(fmt::format("\r{}\033[K", line).c_str(), stream_);
   std::fflush(stream_);
 }
 
@@ -57,9 +59,11 @@ void ProgressBar::erase() {
   visible_ = false;
 }
 
-void print_warning(ProgressBar& bar, const std::string& warning) {
+void print_note(ProgressBar& bar, const std::string& note) {
   bar.erase();
-  std::fputs(fmt::format("kds: warning: {}\n", one_line(warning)).c_str(), stderr);
+  std::fputs(fmt::format("kds: {}\n", one_line(note)).c_str(), stderr);
 }
+
+void print_warning(ProgressBar& bar, const std::string& warning) { print_note(bar, "warning: " + warning); }
 
 }  // namespace kds

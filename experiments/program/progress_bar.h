@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace kds {
@@ -19,6 +20,9 @@ namespace kds {
 
 class ProgressBar {
  public:
+  /// Returns a text that describes the run at this moment.
+  using State = std::function<std::string()>;
+
   /// `counted` names the unit that is counted, as in "step 12 of 48".
   explicit ProgressBar(bool wanted, std::string_view counted, std::FILE* stream = stderr);
   ~ProgressBar() { erase(); }
@@ -29,18 +33,23 @@ class ProgressBar {
   void update(std::size_t done, std::size_t total) { update(done, 0, total); }
   /// Draws the bar. `within` is the completed share of the current unit.
   void update(std::size_t done, double within, std::size_t total);
+  /// Sets what the line says of a run whose total is 0, for unknown: "step 1,234, STATE, 12 s". `state` is
+  /// called by `update`. Without it, such a run has no line.
+  void describe(State state) { state_ = std::move(state); }
   void erase();  ///< call it before anything else is printed
 
  private:
   using Clock = std::chrono::steady_clock;
   std::FILE* stream_;  ///< null for no output
   std::string counted_;
+  State state_;
   Clock::time_point start_ = Clock::now(), drawn_ = start_;
   bool visible_ = false;
 };
 
-/// Prints one line. The progress bar is erased first.
+/// Each prints one line, a warning or a note. The progress bar is erased first.
 void print_warning(ProgressBar& bar, const std::string& warning);
+void print_note(ProgressBar& bar, const std::string& note);
 
 /// Holds warnings about an input that may still be refused. If the input is refused, only the error is
 /// printed.

@@ -132,12 +132,11 @@ void TableCommand::check_inputs_and_destinations(const InputOptions& inputs) {
 
 std::vector<std::string> TableCommand::warnings() {
   bar_.erase();
-  std::vector<std::string> warnings;
   held_.release([&](const std::string& warning) {
-    warnings.push_back(warning);
+    warnings_.push_back(warning);
     print_warning(bar_, warning);
   });
-  return warnings;
+  return warnings_;
 }
 
 AtomicFiles& TableCommand::add_replay(const std::filesystem::path& page) {
@@ -151,21 +150,29 @@ void TableCommand::deliver(Json json, const std::string& csv, const std::string&
   deliver(std::move(json), Csvs{{name_ + ".csv", csv}}, table);
 }
 
+void TableCommand::write_out(const std::string& json, const Csvs& csvs, const fs::path& replay) const {
+  ReportLinks links{{name_ + ".json"}, replay};
+  files_->write(links.data.front(), json);
+  for (const auto& [name, csv] : csvs) {
+    csv.write(files_->open(name));
+    links.data.push_back(name);
+  }
+  files_->check();
+  write_report(*files_, report_name, json, links);
+}
+
+std::optional<std::string> TableCommand::deliver_so_far(Json json, const Csvs& csvs) const {
+  add_provenance(json, command_line_);
+  write_out(text_of(json), csvs, {});
+  return files_->commit_and_begin_anew();
+}
+
 void TableCommand::deliver(Json json, const Csvs& csvs, const std::string& table) const {
   add_provenance(json, command_line_);
   const std::string text = text_of(json);
   const auto& [out, json_path, quiet, replace] = destinations_;
   const bool json_on_stdout = json_path == "-";
-  if (files_) {
-    ReportLinks links{{name_ + ".json"}, replay_beside(*out, replay_)};
-    files_->write(links.data.front(), text);
-    for (const auto& [name, csv] : csvs) {
-      csv.write(files_->open(name));
-      links.data.push_back(name);
-    }
-    files_->check();
-    write_report(*files_, report_name, text, links);
-  }
+  if (files_) write_out(text, csvs, replay_beside(*out, replay_));
   AtomicFiles json_file;
   if (json_path && !json_on_stdout) json_file.write(*json_path, text);
   commit_together({files_.get(), replay_files_.get(), &json_file});

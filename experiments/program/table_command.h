@@ -94,7 +94,7 @@ class TableCommand {
   }
   /// Returns a function that keeps warnings back, because the input may still be refused.
   [[nodiscard]] Warn warn() { return held_.hold(); }
-  /// Prints the warnings that were kept back, and returns them.
+  /// Prints the warnings that were kept back, and returns these and all earlier ones.
   [[nodiscard]] std::vector<std::string> warnings();
 
   /// The command with its arguments, quoted for a shell.
@@ -109,12 +109,18 @@ class TableCommand {
   /// Delivers several CSV files, given as pairs of name and content.
   using Csvs = std::vector<std::pair<std::string, CsvContent>>;
   void deliver(Json json, const Csvs& csvs, const std::string& table) const;
+  /// Writes the files of --out while the command goes on, in place of those of the last call. Returns the
+  /// reason if the directory cannot be replaced.
+  [[nodiscard]] std::optional<std::string> deliver_so_far(Json json, const Csvs& csvs) const;
 
  private:
+  void write_out(const std::string& json, const Csvs& csvs, const std::filesystem::path& replay) const;
+
   std::string name_, command_line_;
   Destinations destinations_;
   ProgressBar bar_;
   HeldWarnings held_;
+  std::vector<std::string> warnings_;  // printed ones
   std::optional<std::filesystem::path> replay_;
   std::unique_ptr<AtomicFiles> files_, replay_files_;
 };
