@@ -74,7 +74,7 @@ std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, const
   const auto run = open_run(options, scene, AuditMode::none);
   std::vector<std::size_t> spacings;
   for (const std::size_t stride : strides) spacings.push_back(stride * ticks_per_frame);
-  FrameContacts frames(spacings, 0, scene.step_count());
+  FrameContacts frames(spacings, 0);
   // Contacts by the step in which they begin. `missed` has such counts for each stride.
   std::vector<double> contacts(scene.step_count());
   std::vector<std::vector<double>> missed(strides.size(), contacts);
@@ -98,7 +98,7 @@ std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, const
   });
   intervals.finish(scene.step_count() - 1, scene.stamp(scene.step_count() - 1),
                    scene.stamp(scene.step_count()));
-  frames.finish();
+  frames.finish(scene.step_count());
   std::vector<MissedRow> rows;
   for (std::size_t k = 0; k < strides.size(); ++k) {
     const FrameContacts::Row& row = frames.rows()[k];

@@ -151,7 +151,8 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
           .with(
               {view_option(&O::view,
                            "run once more, and write a page that shows the contacts of beads in a browser to "
-                           "FILE (default: none)")});
+                           "FILE (default: none)")})
+          .with(&O::live, live_output_options());
   O options;
   const ParsedArguments parsed = read_arguments(with_inputs(kContactsCommand), list, arguments, options);
   take_inputs(parsed, kContactsCommand.name, options.task);
@@ -164,18 +165,36 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
         "between C-alpha atoms or --cutoff 4.5 between heavy atoms");
   task.distances.check();
   if (task.certify) refuse_needless_certificate(task);
+  check_live_output(options.live, task, options.destinations);
+  for (const auto& [name, is_given] :
+       {std::pair("--certify", task.certify), std::pair("--view", options.view.has_value())})
+    refuse_if_live(task, is_given, name,
+                   "reads all frames again; expected a trajectory that the simulation has written");
   return options;
 }
 
 ContactsFound find_contacts(const ContactsTask& task,
                             const std::function<void(std::size_t, std::size_t)>& progress,
-                            const std::function<void(const std::string&)>& warn) {
+                            const std::function<void(const std::string&)>& warn,
+                            const MakeHooks& hooks_over) {
   refuse_instance(task, "points and one step");
   ContactsFound found;
   found.scene = std::make_unique<const Scene>(load_necklaces(options_of_input(task), task.motion, 1, warn));
   warn_of_cells("contacts", found.scene->lacks_images(), options_of_input(task), warn);
-  hint_at_threads(task.threads, found.scene->step_count(), found.scene->bead_count(), warn);
-  found.report = follow_contacts(task, *found.scene, progress);
+  const Scene& scene = *found.scene;
+  if (scene.is_live()) {
+    warn_of_threads(task.threads, warn);
+    found.report =
+        follow_contacts(task, scene, progress, hooks_over ? hooks_over(scene) : LiveHooks<ContactsReport>{});
+    for (const std::string& line : scene.live_warnings()) warn(line);
+    for (const std::size_t stride : task.strides)
+      if (stride > scene.step_count())
+        warn(fmt::format("{}: {} is left out, because it looks at one of the {} frames", "--strides"_arg,
+                         stride, scene.frame_count()));
+  } else {
+    hint_at_threads(task.threads, scene.step_count(), scene.bead_count(), warn);
+    found.report = follow_contacts(task, scene, progress);
+  }
   const std::optional<CrossingCounts>& crossings = found.report->crossings;
   if (crossings && crossings->any()) warn(crossings->sentence());
   found.figures = figures_of(*found.report);
@@ -184,9 +203,42 @@ ContactsFound find_contacts(const ContactsTask& task,
   return found;
 }
 
+namespace {
+
+/// Delivers results at the end, or those so far while the run goes on. Returns what `deliver_so_far` returns.
+std::optional<std::string> deliver(const ContactsOptions& options, const Scene& scene,
+                                   const ContactsReport& report, const ContactsFigures& figures,
+                                   bool is_complete, TableCommand& command) {
+  InputSize size = size_of(scene);
+  size.frames = report.steps + 1;
+  size.ends[1] = scene.stamp(report.steps);
+  Json json;
+  json["input"] = input_json(options.task, size, scene.radii());
+  json["settings"] = contacts_task_options().settings_json(options.task);
+  if (report.live) add_live(json, *report.live);
+  add_contacts(report, figures, json);
+  json["warnings"] = command.warnings();
+  TableCommand::Csvs csvs{{"contacts.csv", contacts_csv(report, figures)},
+                          {"frames.csv", frames_csv(report)}};
+  csvs.emplace_back("intervals.csv",
+                    CsvContent([&](std::ostream& stream) { write_intervals_csv(report, figures, stream); }));
+  if (figures.certificate)
+    csvs.emplace_back("possible_intervals.csv", CsvContent([&](std::ostream& stream) {
+                        write_possible_csv(report, *figures.certificate, stream);
+                      }));
+  if (!is_complete) return command.deliver_so_far(json, csvs);
+  command.deliver(json, csvs, contacts_text(report, figures));
+  return std::nullopt;
+}
+
+}  // namespace
+
 int contacts_command(const Arguments& arguments) {
-  const ContactsOptions options = parse_contacts_options(arguments);
+  ContactsOptions options = parse_contacts_options(arguments);
   const ContactsTask& task = options.task;
+  std::optional<std::string> part;
+  if (options.live.continues)
+    part = start_part("contacts.json", contacts_task_options().settings_json(task), options.destinations);
   TableCommand command("contacts", arguments, options.destinations, "step");
   check_inputs_exist(task);
   const SignalsEndLiveInput on_signal(task);
@@ -194,30 +246,23 @@ int contacts_command(const Arguments& arguments) {
   taken.read(task);
   if (options.view) taken.write_page(*options.view, options.destinations);
   command.check_destinations(std::move(taken));
+  if (part) print_note(command.bar(), *part);
 
-  const ContactsFound found = find_contacts(task, command.progress(), command.warn());
+  ResultsSoFar regularly(command.bar(), options.live.every);
+  const auto hooks_over = [&](const Scene& live_scene) {
+    static_cast<void>(command.warnings());  // printed before the long wait
+    const auto write = [&](const ContactsReport& report) {
+      return deliver(options, live_scene, report, figures_of(report), false, command);
+    };
+    return regularly.hooks<ContactsReport>(options.destinations.out.has_value(), write);
+  };
+  const ContactsFound found = find_contacts(task, command.progress(), command.warn(), hooks_over);
   const Scene& scene = *found.scene;
-  const std::unique_ptr<ContactsReport>& report = found.report;
-  const ContactsFigures& figures = found.figures;
   if (options.view)
-    write_page_of_run(run_to_show(task, scene, *report), scene, *options.view,
+    write_page_of_run(run_to_show(task, scene, *found.report), scene, *options.view,
                       command.add_replay(*options.view), command.progress());
-
-  Json json;
-  json["input"] = input_json(task, size_of(scene), scene.radii());
-  json["settings"] = contacts_task_options().settings_json(task);
-  add_contacts(*report, figures, json);
-  json["warnings"] = command.warnings();
-  TableCommand::Csvs csvs{{"contacts.csv", contacts_csv(*report, figures)},
-                          {"frames.csv", frames_csv(*report)}};
-  csvs.emplace_back("intervals.csv",
-                    CsvContent([&](std::ostream& stream) { write_intervals_csv(*report, figures, stream); }));
-  if (figures.certificate)
-    csvs.emplace_back("possible_intervals.csv", CsvContent([&](std::ostream& stream) {
-                        write_possible_csv(*report, *figures.certificate, stream);
-                      }));
-  command.deliver(json, csvs, contacts_text(*report, figures));
-  return 0;
+  static_cast<void>(deliver(options, scene, *found.report, found.figures, true, command));
+  return found.report->live ? end_of_live_run(command.bar(), *found.report->live, scene.is_truncated()) : 0;
 }
 
 }  // namespace kds

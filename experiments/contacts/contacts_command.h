@@ -19,11 +19,15 @@ struct ContactsOptions {
   ContactsTask task;
   Destinations destinations;
   std::optional<std::filesystem::path> view;  ///< page that shows the contacts of beads
+  LiveOutput live;
 };
 
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
 /// --help. Opens no file.
 [[nodiscard]] ContactsOptions parse_contacts_options(const Arguments& arguments);
+
+/// Returns what is done while a run over this live scene goes on.
+using MakeHooks = std::function<LiveHooks<ContactsReport>(const Scene& scene)>;
 
 struct ContactsFound {
   std::unique_ptr<const Scene> scene;
@@ -35,6 +39,7 @@ struct ContactsFound {
 /// `warn` as one line; one warning says why there are no contacts. Throws InputError.
 [[nodiscard]] ContactsFound find_contacts(const ContactsTask& task,
                                           const std::function<void(std::size_t, std::size_t)>& progress,
-                                          const std::function<void(const std::string&)>& warn);
+                                          const std::function<void(const std::string&)>& warn,
+                                          const MakeHooks& hooks_over = {});
 
 }  // namespace kds

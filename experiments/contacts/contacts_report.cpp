@@ -261,8 +261,8 @@ void add_contacts(const ContactsReport& report, const ContactsFigures& figures, 
   Json course = Json::array();
   const std::vector<double> means = report.course.means();
   for (std::size_t bin = 0; bin < means.size(); ++bin)
-    course.push_back(Json{{"frame", report.course_frames[bin].number},
-                          {"picoseconds", report.course_frames[bin].picoseconds},
+    course.push_back(Json{{"frame", report.course.first_frames()[bin].number},
+                          {"picoseconds", report.course.first_frames()[bin].picoseconds},
                           {"contacts", means[bin]}});
   json["course"] = std::move(course);
 }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "experiments/events/event_distribution.h"
 #include "experiments/run/run_scene.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/bead_name.h"
@@ -121,16 +123,28 @@ class ContactsRun {
     return {scene_, run_.whole().structures().back()->statistics.events_by_kind};
   }
 
-  void run(const std::function<void(std::size_t frame)>& at_frame) {
+  /// `at_end` is called after the last step, before contacts that are still open end.
+  void run(
+      const std::function<void(std::size_t frame)>& at_frame, const std::function<void()>& at_end = [] {}) {
     RunOptions options;
     static_cast<InputOptions&>(options) = task_;
     run_steps(run_, options, [&](std::size_t frame) {
       if (frame == 0) add_built();
       at_frame(frame);
     });
+    at_end();
     const StepStamps last(scene_, scene_.step_count() - 1);
     for (const Followed& one : followed_) one.intervals->finish(scene_.step_count() - 1, last.from, last.to);
   }
+
+  /// Passes to `sinks`, one for each rule, what the rules would pass on if the run ended after these steps.
+  void finish_copies(const std::vector<ContactIntervals::Sink>& sinks, std::size_t steps) const {
+    const StepStamps last(scene_, steps - 1);
+    for (std::size_t k = 0; k < followed_.size(); ++k)
+      followed_[k].intervals->finish_copy(sinks[k], steps - 1, last.from, last.to);
+  }
+  /// Returns the number of contacts now, by the rule that was added last.
+  [[nodiscard]] std::size_t contacts_now() const { return followed_.back().intervals->size(); }
 
  private:
   struct Followed {
@@ -153,31 +167,75 @@ class ContactsRun {
   std::vector<Followed> followed_;
 };
 
-template <int D>
-void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report,
-            const std::function<void(std::size_t, std::size_t)>& progress) {
-  const bool with_crossings = has_crossings(scene);
-  ContactsRun<D> run(task, scene, report, radii_of(task, scene), scene.bead_groups(), with_crossings);
-  ContactRule outer_rule = inner_rule_of(task, report);
-  outer_rule.inner = outer_rule.outer = rule_of(task, report).outer;
-  FrameContacts& frames = *report.frames;
-  run.follow(inner_rule_of(task, report),
-             [&](const ContactInterval& interval) { frames.add_inner(interval); });
-  if (task.has_two_cutoffs())
-    run.follow(outer_rule, [&](const ContactInterval& interval) { frames.add_outer(interval); });
-  run.follow(rule_of(task, report), [&](const ContactInterval& interval) {
+/// Returns the rules of a run, in the order in which a report takes their intervals.
+std::vector<ContactRule> rules_of(const ContactsTask& task, const ContactsReport& report) {
+  const ContactRule rule = rule_of(task, report);
+  std::vector<ContactRule> rules{inner_rule_of(task, report), rule};
+  if (!task.has_two_cutoffs()) return rules;
+  ContactRule outer = inner_rule_of(task, report);
+  outer.inner = outer.outer = rule.outer;
+  return {rules[0], outer, rule};
+}
+
+/// Returns a sink for each of these rules, which adds to the report.
+std::vector<ContactIntervals::Sink> sinks_of(ContactsReport& report) {
+  std::vector<ContactIntervals::Sink> sinks{
+      [&](const ContactInterval& interval) { report.frames->add_inner(interval); }};
+  if (report.has_two_cutoffs)
+    sinks.emplace_back([&](const ContactInterval& interval) { report.frames->add_outer(interval); });
+  sinks.emplace_back([&](const ContactInterval& interval) {
     report.lifetimes.add(interval);
     const IntervalRecord record = record_of(interval);
     report.course.add(record.begin, record.end);
     report.intervals.push_back(record);
   });
-  run.run([&](std::size_t frame) {
-    if (frame < scene.step_count() && frame % report.course.width() == 0)
-      report.course_frames.push_back(scene.stamp(frame));
-    progress(frame, scene.step_count());
-  });
-  frames.finish();
+  return sinks;
+}
+
+/// Completes the report of a run of this many steps.
+void complete(const Scene& scene, std::size_t steps, ContactsReport& report) {
+  const FrameStamp first = scene.stamp(0), last = scene.stamp(steps);
+  report.frames->finish(steps);
+  report.steps = steps;
+  report.first_frame = first.number;
+  report.last_frame = last.number;
+  report.run_length = report.has_times() ? *last.picoseconds - *first.picoseconds
+                                         : static_cast<double>(last.number - first.number);
+}
+
+template <int D>
+void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report,
+            const std::function<void(std::size_t, std::size_t)>& progress,
+            const LiveHooks<ContactsReport>& hooks) {
+  const bool with_crossings = has_crossings(scene);
+  ContactsRun<D> run(task, scene, report, radii_of(task, scene), scene.bead_groups(), with_crossings);
+  const std::vector<ContactRule> rules = rules_of(task, report);
+  const std::vector<ContactIntervals::Sink> sinks = sinks_of(report);
+  for (std::size_t k = 0; k < rules.size(); ++k) run.follow(rules[k], sinks[k]);
+  const LiveProgress live(scene);
+  std::size_t steps = 0;
+  const auto report_so_far = [&] {
+    ContactsReport copy = report;
+    copy.course.end(steps);
+    run.finish_copies(sinks_of(copy), steps);
+    complete(scene, steps, copy);
+    if (with_crossings) copy.crossings = run.crossings();
+    copy.live = live.run(false);
+    return copy;
+  };
+  if (hooks.describe && scene.is_live())
+    hooks.describe([&] { return live.state(steps, report.intervals.size(), "ended", run.contacts_now()); });
+  run.run(
+      [&](std::size_t frame) {
+        steps = frame;
+        report.course.add_frame(frame, scene);
+        progress(frame, scene.is_live() ? 0 : scene.step_count());
+        if (hooks.at_frame && scene.is_live() && steps > 0) hooks.at_frame(report_so_far);
+      },
+      [&] { report.course.end(steps); });
+  complete(scene, steps, report);
   if (with_crossings) report.crossings = run.crossings();
+  if (scene.is_live()) report.live = live.run(true);
 }
 
 template <int D>
@@ -215,18 +273,43 @@ std::vector<std::size_t> strides_that_fit(const std::vector<std::size_t>& given,
   return strides;
 }
 
-ContactCourse::ContactCourse(std::size_t steps)
-    : steps_(steps),
-      width_(std::max<std::size_t>(1, (steps + most_bins - 1) / most_bins)),
-      partial_((steps + width_ - 1) / width_),
-      begun_(partial_.size() + 1) {}
+ContactCourse::ContactCourse(std::optional<std::size_t> steps)
+    : steps_(steps), width_(bin_width(steps.value_or(1), most_bins)) {}
+
+void ContactCourse::add_frame(std::size_t frame, const Scene& scene) {
+  if (!steps_ && frame > most_bins * width_) double_width();
+  if (frame % width_ == 0) first_frames_.push_back(scene.stamp(frame));
+}
+
+/// Joins pairs of bins. Contacts that cover whole bins become times in them.
+void ContactCourse::double_width() {
+  std::vector<double> times(partial_.size() + 1);
+  double covering = 0;
+  for (std::size_t bin = 0; bin < partial_.size(); ++bin) {
+    covering += begun_[bin];
+    times[bin] = partial_[bin] + covering * static_cast<double>(width_);
+  }
+  for (std::size_t bin = 0; 2 * bin < partial_.size(); ++bin)
+    partial_[bin] = times[2 * bin] + times[2 * bin + 1];
+  for (std::size_t bin = 0; 2 * bin < first_frames_.size(); ++bin)
+    first_frames_[bin] = first_frames_[2 * bin];
+  partial_.resize((partial_.size() + 1) / 2);
+  first_frames_.resize((first_frames_.size() + 1) / 2);
+  begun_.assign(partial_.size() + 1, 0);
+  width_ *= 2;
+}
 
 void ContactCourse::add(double begin, double end) {
   const auto width = static_cast<double>(width_);
   const auto bin_of = [&](double time) {
-    return std::min(static_cast<std::size_t>(time / width), partial_.size() - 1);
+    const auto bin = static_cast<std::size_t>(time / width);
+    return steps_ ? std::min(bin, (*steps_ - 1) / width_) : bin;
   };
   const std::size_t first = bin_of(begin), last = bin_of(end);
+  if (last >= partial_.size()) {
+    partial_.resize(last + 1);
+    begun_.resize(last + 2);
+  }
   if (first == last) {
     partial_[first] += end - begin;
     return;
@@ -240,10 +323,10 @@ void ContactCourse::add(double begin, double end) {
 std::vector<double> ContactCourse::means() const {
   std::vector<double> means;
   double covering = 0;
-  for (std::size_t bin = 0; bin < partial_.size(); ++bin) {
-    covering += begun_[bin];
-    const std::size_t steps = std::min(width_, steps_ - bin * width_);
-    means.push_back(covering + partial_[bin] / static_cast<double>(steps));
+  for (std::size_t bin = 0; bin * width_ < *steps_; ++bin) {
+    if (bin < begun_.size()) covering += begun_[bin];
+    const std::size_t steps = std::min(width_, *steps_ - bin * width_);
+    means.push_back(covering + (bin < partial_.size() ? partial_[bin] / static_cast<double>(steps) : 0));
   }
   return means;
 }
@@ -264,12 +347,17 @@ void follow_again(const ContactsTask& task, const Scene& scene, const ContactsRe
 
 std::unique_ptr<ContactsReport> follow_contacts(
     const ContactsTask& task, const Scene& scene,
-    const std::function<void(std::size_t, std::size_t)>& progress) {
+    const std::function<void(std::size_t, std::size_t)>& progress,
+    const LiveHooks<ContactsReport>& hooks) {
   if (scene.frame_count() < 2)
     throw InputError(fmt::format("{}: has one frame, expected two or more", file_names(task)));
-  require_ascending_times(task, scene);
-  const auto strides = strides_that_fit(task.strides, scene.frame_count(), task);
-  auto report = std::make_unique<ContactsReport>(scene.step_count());
+  // The frames of a live scene are still to come. Times that do not ascend end such a run.
+  if (!scene.is_live()) require_ascending_times(task, scene);
+  constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+  const auto strides =
+      strides_that_fit(task.strides, scene.is_live() ? unlimited : scene.frame_count(), task);
+  auto report = std::make_unique<ContactsReport>(
+      scene.is_live() ? std::nullopt : std::optional<std::size_t>(scene.step_count()));
   const std::optional<BeadId> nameless = bead_without_residue(scene);
   report->by = task.by.value_or(nameless ? ContactElement::bead : ContactElement::residue);
   if (report->by == ContactElement::residue && nameless)
@@ -291,18 +379,12 @@ std::unique_ptr<ContactsReport> follow_contacts(
   const FrameStamp first = scene.stamp(0);
   report->clock = first.picoseconds ? ContactClock::picoseconds : ContactClock::frames;
   report->pairs_asked = pairs_asked(scene, *report);
-  report->frames =
-      std::make_unique<FrameContacts>(spacings_of(strides), task.intermittency, scene.step_count());
+  report->frames.emplace(spacings_of(strides), task.intermittency);
   if (scene.dimension() == 2) {
-    follow<2>(task, scene, *report, progress);
+    follow<2>(task, scene, *report, progress, hooks);
   } else {
-    follow<3>(task, scene, *report, progress);
+    follow<3>(task, scene, *report, progress, hooks);
   }
-  const FrameStamp last = scene.stamp(scene.step_count());
-  report->first_frame = first.number;
-  report->last_frame = last.number;
-  report->run_length = report->has_times() ? *last.picoseconds - *first.picoseconds
-                                           : static_cast<double>(last.number - first.number);
   return report;
 }
 

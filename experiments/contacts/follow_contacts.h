@@ -11,6 +11,7 @@
 
 #include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
+#include "experiments/program/live_output.h"
 #include "experiments/run/count_crossings.h"
 #include "motions/base/bead_groups.h"
 #include "motions/scene/scene.h"
@@ -55,27 +56,40 @@ struct IntervalRecord {
 
 [[nodiscard]] IntervalRecord record_of(const ContactInterval& interval);
 
-/// The mean number of contacts in bins of neighbouring steps.
+/// The mean number of contacts in bins of neighbouring steps. If the number of steps is not known in advance,
+/// the width of bins doubles when there are too many.
 class ContactCourse {
  public:
   static constexpr std::size_t most_bins = 300;
 
-  explicit ContactCourse(std::size_t steps);
+  /// `steps` is the number of steps, or empty if it is not known yet.
+  explicit ContactCourse(std::optional<std::size_t> steps);
+  /// Adds the next frame of the run, counted from 0.
+  void add_frame(std::size_t frame, const Scene& scene);
   /// Adds a contact. Times count steps.
   void add(double begin, double end);
-  /// Returns the number of steps in a bin. The last bin may have fewer.
-  [[nodiscard]] std::size_t width() const { return width_; }
+  /// Says that the run has this number of steps, before contacts are added that last at its last frame.
+  void end(std::size_t steps) { steps_ = steps; }
+  /// Returns the mean of each bin, after `end` if the number of steps was not known. The last bin may have
+  /// fewer steps than others.
   [[nodiscard]] std::vector<double> means() const;
+  /// Returns the first frame of each bin. A further one may follow.
+  [[nodiscard]] const std::vector<FrameStamp>& first_frames() const { return first_frames_; }
 
  private:
-  std::size_t steps_, width_;
+  void double_width();
+
+  std::optional<std::size_t> steps_;
+  std::size_t width_;
+  std::vector<FrameStamp> first_frames_;
   // For each bin: the time in it of contacts that begin or end in it; and how many contacts begin to cover
   // whole bins there, minus those that stop covering them.
   std::vector<double> partial_, begun_;
 };
 
 struct ContactsReport {
-  explicit ContactsReport(std::size_t step_count) : steps(step_count), course(step_count) {}
+  /// `step_count` is empty if the number of steps is not known yet.
+  explicit ContactsReport(std::optional<std::size_t> step_count) : course(step_count) {}
 
   ContactElement by = ContactElement::bead;
   ContactElements elements;
@@ -83,15 +97,15 @@ struct ContactsReport {
   bool has_two_cutoffs = false;
   ContactClock clock = ContactClock::frames;
   double run_length = 0;  ///< in units of the clock
-  std::size_t steps;
-  std::vector<FrameStamp> course_frames;  ///< the first frame of each bin of `course`
+  std::size_t steps = 0;
   std::size_t first_frame = 0, last_frame = 0;
   std::uint64_t pairs_asked = 0;  ///< pairs of elements that could be in contact
   ContactLifetimes lifetimes;
-  std::unique_ptr<FrameContacts> frames;
+  std::optional<FrameContacts> frames;
   std::vector<IntervalRecord> intervals;  ///< in the order of their ends
   ContactCourse course;
   std::optional<CrossingCounts> crossings;  ///< of bonds, if the scene has any
+  std::optional<LiveRun> live;              ///< only if the input is a running simulation
 
   [[nodiscard]] bool has_times() const { return clock == ContactClock::picoseconds; }
   [[nodiscard]] std::string unit() const { return has_times() ? "ps" : "frames"; }
@@ -114,9 +128,11 @@ void follow_again(const ContactsTask& task, const Scene& scene, const ContactsRe
                   const ContactIntervals::Sink& inner_sink,
                   const std::function<void(std::size_t frame)>& at_frame);
 
-/// Follows the contacts over all frames of the scene. Throws InputError for faults of the input.
+/// Follows the contacts over all frames of the scene. Throws InputError for faults of the input. `progress`
+/// gets the total 0 if the number of steps is unknown.
 [[nodiscard]] std::unique_ptr<ContactsReport> follow_contacts(
     const ContactsTask& task, const Scene& scene,
-    const std::function<void(std::size_t done, std::size_t total)>& progress);
+    const std::function<void(std::size_t done, std::size_t total)>& progress,
+    const LiveHooks<ContactsReport>& hooks = {});
 
 }  // namespace kds

@@ -13,6 +13,12 @@ std::size_t bin_width(std::size_t steps, std::size_t most) {
 }
 
 void EventCourse::add(std::uint64_t events, const FrameStamp& frame) {
+  if (steps_ == most_bins * width_) {
+    width_ *= 2;
+    for (std::size_t bin = 0; bin < most_bins / 2; ++bin)
+      bins_[bin] = {bins_[2 * bin].first_frame, bins_[2 * bin].events + bins_[2 * bin + 1].events};
+    bins_.resize(most_bins / 2);
+  }
   if (steps_ % width_ == 0) bins_.push_back({frame, 0});
   EventBin& bin = bins_.back();
   ++steps_;

@@ -23,12 +23,13 @@ struct EventBin {
 /// Returns the number of steps per bin such that there are at most `most` bins.
 [[nodiscard]] std::size_t bin_width(std::size_t steps, std::size_t most);
 
-/// The number of events of a structure over the course of a run.
+/// The number of events of a structure over the course of a run. If the run has more steps than most_bins
+/// bins hold, pairs of bins are joined and the width doubles.
 class EventCourse {
  public:
   static constexpr std::size_t most_bins = 600;  ///< a plot is about this many pixels wide
 
-  /// `width` is the number of steps in a bin.
+  /// `width` is the number of steps in a bin, at first.
   explicit EventCourse(std::size_t width = 1) : width_(width) {}
 
   /// Adds the next step, which begins at this frame.

@@ -76,6 +76,7 @@ std::optional<Advice> advice_in(const Scene& scene, BeadId apart) {
 }
 
 std::optional<Advice> advice_for(const Scene& scene, BeadId apart) {
+  if (scene.is_live()) return std::nullopt;  // the first frame is gone
   if (scene.frame_count() == 0 || !scene.has_radii() || !scene.equal_radii()) return std::nullopt;
   if (scene.dimension() == 2) return advice_in<2>(scene, apart);
   if (scene.dimension() == 3) return advice_in<3>(scene, apart);

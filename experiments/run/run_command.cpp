@@ -29,23 +29,37 @@ void check_before_run(const RunOptions& options) {
   if (options.log) ensure_writable_file(*options.log, "--log");
 }
 
+Json settings_of(const RunOptions& options) {
+  Json settings = Json::object();
+  for (const auto& [name, value] : run_options().settings(options)) settings[name] = value;
+  return settings;
+}
+
 }  // namespace
 
 int run_command(const Arguments& arguments) {
-  const RunOptions options = parse_run_options(arguments);
+  RunOptions options = parse_run_options(arguments);
+  std::optional<std::string> part;
+  if (options.continues) part = start_part("summary.json", settings_of(options), options);
   check_before_run(options);
   const SignalsEndLiveInput on_signal(options);
 
   RunResults results(options, options.events, options.view);
   ProgressBar bar(!options.quiet, "step");
+  if (part) print_note(bar, *part);
+  ResultsSoFar regularly(bar, options.every);
   RunReport report = run_scene(
       options,
       [&bar](std::size_t done, double within, std::size_t total) { bar.update(done, within, total); },
-      [&bar](const std::string& warning) { print_warning(bar, warning); }, results);
+      [&bar](const std::string& warning) { print_warning(bar, warning); }, results,
+      regularly.hooks<RunReport>(options.out.has_value(), [&results](RunReport so_far) {
+        results.add_distributions(so_far);
+        return results.deliver_so_far(report_json(so_far));
+      }));
   bar.erase();
   results.add_distributions(report);
   results.deliver(report, report_json(report), comparison_table(report));
-  return 0;
+  return report.live ? end_of_live_run(bar, *report.live, report.truncated) : 0;
 }
 
 }  // namespace kds

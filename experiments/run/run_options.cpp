@@ -223,7 +223,8 @@ const OptionList<RunOptions>& run_options() {
                   {"--log", "FILE", "write the event log to FILE, for kds replay (default: none)"}, &O::log)),
               view_option(&O::view),
           })
-          .with(run_destination_options());
+          .with(run_destination_options())
+          .with(live_output_options());
   return list;
 }
 
@@ -236,6 +237,15 @@ RunOptions parse_run_options(const Arguments& arguments) {
   options.distances.check();
   if (options.certify && !options.tolerance)
     refuse_needless_certificate(options, ", or " + "--tolerance"_arg);
+  check_live_output(options, options, options);
+  refuse_if_live(options, options.rounds > 1, "--rounds", "a simulation runs once; expected 1");
+  refuse_if_live(options, options.certify, "--certify",
+                 "reads all frames again; expected a trajectory that the simulation has written");
+  for (const auto& [name, path] : {std::pair("--log", &options.log), std::pair("--view", &options.view)})
+    refuse_if_live(
+        options, path->has_value(), name,
+        "needs all frames before the run; expected a trajectory that the simulation has written, or "
+        "--events FILE");
   return options;
 }
 

@@ -15,6 +15,7 @@
 #include "experiments/output/output_files.h"
 #include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
+#include "experiments/program/live_output.h"
 #include "experiments/program/option.h"
 #include "kds/kinetic_structure.h"
 #include "motions/scene/scene.h"
@@ -35,7 +36,7 @@ struct MotionTolerance {
   }
 };
 
-struct RunOptions : InputOptions, Destinations {
+struct RunOptions : InputOptions, Destinations, LiveOutput {
   std::vector<std::string> structures;  ///< names in the order of the registry; empty for the input's default
   FrameMotion motion = FrameMotion::linear;
   Kernel kernel = Kernel::filtered;

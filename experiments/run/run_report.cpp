@@ -62,9 +62,9 @@ RunReport report_of(KineticRun& run, const Scene& scene, const RunOptions& optio
   for (const auto& input : options.inputs) report.files.push_back(input.string());
   if (options.obstacle) report.files.push_back(options.obstacle->string());
   report.beads = scene.bead_count();
-  report.frames = scene.frame_count();
+  report.frames = counts.steps() + 1;
   report.first_frame = scene.stamp(0);
-  report.last_frame = scene.stamp(scene.frame_count() - 1);
+  report.last_frame = scene.stamp(counts.steps());
   report.dimension = scene.dimension();
   for (BeadId bead = 0; bead < scene.bead_count(); ++bead) report.bead_names.push_back(scene.bead_name(bead));
   report.truncated = scene.is_truncated();
@@ -83,7 +83,7 @@ RunReport report_of(KineticRun& run, const Scene& scene, const RunOptions& optio
         report_of(*run.structures()[s], run.simulator().seconds_of(s), counts.courses()[s]));
     if (report.structures.back().name != "contacts") continue;
     report.structures.back().contacts_at_start = counts.contacts_at_start();
-    report.structures.back().contacts_at_end = contacts_at(run, scene.frame_count() - 1);
+    report.structures.back().contacts_at_end = contacts_at(run, counts.steps());
   }
   report.engine_seconds = run.simulator().seconds();
   report.listeners_seconds = run.simulator().seconds_of_listeners();
@@ -101,7 +101,7 @@ void add_counts(Json& object, const NamedCounts& counts) {
   for (const auto& [name, value] : counts) object[name] = value;
 }
 
-Json structure_json(const StructureReport& structure, std::size_t rounds) {
+Json structure_json(const StructureReport& structure, std::size_t rounds, bool has_static_builds) {
   Json events{{"total", structure.events_total}};
   add_counts(events, structure.events_by_kind);
   Json stages = Json::object();
@@ -118,10 +118,10 @@ Json structure_json(const StructureReport& structure, std::size_t rounds) {
               {"per_bead_max", structure.per_bead_max}}},
             {"stages", stages},
             {"seconds", structure.seconds},
-            {"build_seconds", structure.build_seconds},
-            {"static_seconds", structure.static_seconds},
-            {"rebuilds", structure.rebuilds},
-            {"audits", {{"run", structure.audits_run}, {"failed", structure.audits_failed}}}};
+            {"build_seconds", structure.build_seconds}};
+  if (has_static_builds) json["static_seconds"] = structure.static_seconds;
+  json["rebuilds"] = structure.rebuilds;
+  json["audits"] = {{"run", structure.audits_run}, {"failed", structure.audits_failed}};
   if (structure.contacts_at_start && structure.contacts_at_end)
     json["contacts"] = {{"at_start", *structure.contacts_at_start}, {"at_end", *structure.contacts_at_end}};
   if (!structure.distribution.by_bead.empty()) {
@@ -175,7 +175,7 @@ Json run_json(const RunReport& report) {
   for (const auto& [name, value] : report.settings) json["settings"][name] = value;
   json["structures"] = Json::object();
   for (const StructureReport& structure : report.structures)
-    json["structures"][structure.name] = structure_json(structure, report.rounds);
+    json["structures"][structure.name] = structure_json(structure, report.rounds, !report.live);
   Json comparisons = Json::object();
   add_counts(comparisons, report.comparisons);
   json["engine"] = {{"seconds", report.engine_seconds},
@@ -186,6 +186,7 @@ Json run_json(const RunReport& report) {
                     {"parts", report.parts.parts},
                     {"parts_run_again", report.parts.run_again}};
   json["fingerprint"] = hex_digits(report.fingerprint);
+  if (report.live) add_live(json, *report.live);
   if (report.stride) json["stride"] = stride_json(*report.stride);
   if (report.approach) json["closest_approach"] = approach_json(report);
   add_provenance(json, report.command_line);

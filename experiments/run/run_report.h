@@ -10,6 +10,7 @@
 
 #include "experiments/events/closest_approach.h"
 #include "experiments/events/event_distribution.h"
+#include "experiments/program/live_output.h"
 #include "experiments/program/timing.h"
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/run_options.h"
@@ -70,6 +71,7 @@ struct RunReport {
   std::optional<ClosestApproach> approach;  ///< only if the run has the closest pair
   /// The least distance over all frames. Known with --certify, or with --tolerance if no frame is left out.
   std::optional<DistanceRange> approach_in_all_frames;
+  std::optional<LiveRun> live;          ///< only if the input is a running simulation
   std::string command_line;             ///< asks for the same run, without outputs
   std::vector<std::string> bead_names;  ///< an unknown name is an empty text
 };
@@ -87,7 +89,7 @@ struct ReplayReport {
 };
 
 class StepCounts;  // run_scene.h
-/// Collects the counts of the structures of a run.
+/// Collects the counts of the structures of a run at the frame that it has reached.
 [[nodiscard]] RunReport report_of(KineticRun& run, const Scene& scene, const RunOptions& options,
                                   const StepCounts& counts);
 

@@ -1,6 +1,7 @@
 #include "experiments/run/run_results.h"
 
 #include <filesystem>
+#include <tuple>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/report_page.h"
@@ -27,12 +28,36 @@ void RunResults::begin(const Scene& scene, KineticRun& run, const RunOptions& op
     run.simulator().listen(*distributions_);
   }
   if (!files_) return;
-  events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
+  events_.emplace(open_in_out("events.csv", scene.is_live()), scene.stamp(0).picoseconds.has_value());
   if (has_contacts(run)) contacts_files_.emplace_back(contacts_file);
   if (has_contacts(run) && certified) contacts_files_.emplace_back(possible_contacts_file);
   if (!has_contacts(run) || certified) return;
-  contacts_.emplace(files_->open(std::string(contacts_file)), scene);
+  contacts_.emplace(open_in_out(std::string(contacts_file), scene.is_live()), scene);
   run.simulator().listen(*contacts_);
+}
+
+std::ostream& RunResults::open_in_out(const std::string& name, bool is_live) {
+  if (!is_live) return files_->open(name);
+  return copied_.emplace_back(std::piecewise_construct, std::tuple(name), std::tuple()).second.stream();
+}
+
+void RunResults::check_out() const {
+  files_->check();
+  for (const auto& [name, file] : copied_) file.check();
+}
+
+void RunResults::write_out(const std::string& json, const std::filesystem::path& replay) {
+  for (auto& [name, file] : copied_) file.copy_to(files_->open(name));
+  files_->check();
+  files_->write("summary.json", json);
+  ReportLinks links{{"summary.json", "events.csv"}, replay};
+  links.data.insert(links.data.end(), contacts_files_.begin(), contacts_files_.end());
+  write_report(*files_, report_name, json, links);
+}
+
+std::optional<std::string> RunResults::deliver_so_far(const std::string& json) {
+  write_out(json, {});
+  return files_->commit_and_begin_anew();
 }
 
 void RunResults::add_certificate(const StrideCertificate& certificate, const Scene& scene) {
@@ -72,7 +97,7 @@ void RunResults::add_step(const FrameStamp& frame, std::string_view structure, s
   if (every_event_file_) every_event_file_->check();
   if (!events_) return;
   events_->add(frame, structure, events);
-  files_->check();
+  check_out();
 }
 
 void RunResults::end_run() {
@@ -88,12 +113,7 @@ void RunResults::add_distributions(RunReport& report) const {
 void RunResults::deliver(const RunReport& report, const std::string& json, const std::string& table) {
   const bool json_on_stdout = destinations_.json == "-";
   const bool table_on_stdout = !destinations_.quiet && !json_on_stdout;
-  if (files_) {
-    files_->write("summary.json", json);
-    ReportLinks links{{"summary.json", "events.csv"}, replay_beside(*destinations_.out, page_path_)};
-    links.data.insert(links.data.end(), contacts_files_.begin(), contacts_files_.end());
-    write_report(*files_, report_name, json, links);
-  }
+  if (files_) write_out(json, replay_beside(*destinations_.out, page_path_));
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) json_file.write(*destinations_.json, json);
   if (log_) log_->end(report.fingerprint);

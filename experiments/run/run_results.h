@@ -3,10 +3,12 @@
 // destinations --json, --dump, --events, --log and standard output.
 
 #include <filesystem>
+#include <list>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "experiments/events/event_distribution.h"
 #include "experiments/events/event_files.h"
@@ -47,14 +49,23 @@ class RunResults {
   void add_certificate(const StrideCertificate& certificate, const Scene& scene);
   /// Adds the distributions of events, which are recorded for --out and --json.
   void add_distributions(RunReport& report) const;
+  /// Writes the files of --out while the run goes on, in place of those of the last call. Lists that other
+  /// options ask for appear at the end. Returns the reason if the directory cannot be replaced.
+  [[nodiscard]] std::optional<std::string> deliver_so_far(const std::string& json);
   /// Delivers all results. `json` is the summary. `table` is printed unless --quiet is given or standard
   /// output carries the JSON. The files appear when all are complete.
   void deliver(const RunReport& report, const std::string& json, const std::string& table);
 
  private:
+  /// Opens a file of --out that is written during the run. A live run copies such files into each result.
+  [[nodiscard]] std::ostream& open_in_out(const std::string& name, bool is_live);
+  void check_out() const;
+  void write_out(const std::string& json, const std::filesystem::path& replay);
+
   Destinations destinations_;
   std::optional<std::filesystem::path> events_path_, page_path_;
   std::optional<AtomicFiles> files_;
+  std::list<std::pair<std::string, UnnamedFile>> copied_;  // files of a live run, with their names
   std::optional<EventsCsv> events_;
   std::optional<EventDistributions> distributions_;
   std::optional<ContactsTable> contacts_;

@@ -116,8 +116,10 @@ struct Times {
   std::vector<std::vector<double>> kept, built;
 };
 
+// Frames of a live scene are gone when static builds would need them.
 void add_round(ParallelRun& run, Times& times) {
-  const std::vector<double> built = run.static_seconds();
+  const std::vector<double> built =
+      run.scene().is_live() ? std::vector<double>(times.built.size()) : run.static_seconds();
   for (std::size_t s = 0; s < times.kept.size(); ++s) {
     times.kept[s].push_back(run.simulator().seconds_of(s));
     times.built[s].push_back(built[s]);
@@ -173,18 +175,21 @@ void watch_exact_work(ParallelRun& run, const std::function<void(const std::stri
 StepCounts::StepCounts(KineticRun& run, const Scene& scene)
     : run_(run),
       scene_(scene),
-      courses_(run.structures().size(), EventCourse(bin_width(scene.step_count(), EventCourse::most_bins))) {}
+      courses_(run.structures().size(),
+               EventCourse(scene.is_live() ? 1 : bin_width(scene.step_count(), EventCourse::most_bins))) {}
 
 void StepCounts::begin() { contacts_at_start_ = contacts_at(run_, 0); }
 
 void StepCounts::end_step(std::size_t step, RunResults* results) {
   const FrameStamp stamp = scene_.stamp(step);
+  ++steps_;
   for (std::size_t s = 0; s < courses_.size(); ++s) {
     KineticStructure& structure = *run_.structures()[s];
     std::vector<std::uint64_t>& events_per_step = structure.statistics.events_per_step;
     const std::uint64_t events = events_per_step.empty() ? 0 : events_per_step.back();
     events_per_step.clear();
     courses_[s].add(events, stamp);
+    events_ += events;
     if (results != nullptr) results->add_step(stamp, structure.name(), events);
   }
 }
@@ -234,20 +239,41 @@ void complete_report(const RunOptions& options, const Scene& scene,
 }
 
 RunReport run_scene(const RunOptions& options, const Progress& progress,
-                    const std::function<void(const std::string&)>& warn, RunResults& results) {
+                    const std::function<void(const std::string&)>& warn, RunResults& results,
+                    const LiveHooks<RunReport>& hooks) {
   HeldWarnings warnings;
   const Scene scene = load_scene(options, warnings.hold());
+  return run_over(scene, warnings, options, progress, warn, results, hooks);
+}
+
+RunReport run_over(const Scene& scene, HeldWarnings& warnings, const RunOptions& options,
+                   const Progress& progress, const std::function<void(const std::string&)>& warn,
+                   RunResults& results, const LiveHooks<RunReport>& hooks) {
   ParallelOptions parallel;
   parallel.dumps = options.dump.has_value();
   parallel.static_builds = true;
   const auto run = open_parallel_run(options, scene, options.audit, parallel, warn);
   if (!options.quiet) watch_exact_work(*run, warn);
-  ProgressWithinSteps within(progress, options.rounds * scene.step_count());
-  if (options.audit == AuditMode::events) run->listen(within);
+  const std::size_t total = scene.is_live() ? 0 : options.rounds * scene.step_count();
+  ProgressWithinSteps within(progress, total);
+  if (options.audit == AuditMode::events && !scene.is_live()) run->listen(within);
   StepCounts counts(run->whole(), scene);
   follow_approach(*run);
   results.begin(scene, run->whole(), options);
   results.begin_dump_and_log(options, scene, run->whole());
+  const LiveProgress live(scene);
+  const auto report_so_far = [&](bool is_complete) {
+    RunReport report = report_of(run->whole(), scene, options, counts);
+    report.threads = run->threads();
+    report.parts = run->parts();
+    report.approach = followed_approach(*run);
+    if (scene.is_live()) report.live = live.run(is_complete);
+    return report;
+  };
+  if (hooks.describe && scene.is_live())
+    hooks.describe([&] {
+      return live.state(counts.steps(), counts.events(), "events", contacts_at(run->whole(), counts.steps()));
+    });
 
   run_steps(*run, options, [&](std::size_t frame) {
     if (frame == 0) warnings.release(warn);
@@ -255,14 +281,14 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
     results.add_frame(frame, run->whole());
     if (frame == 0) return;
     counts.end_step(frame - 1, &results);
-    progress(frame, 0, options.rounds * scene.step_count());
+    progress(frame, 0, total);
+    if (hooks.at_frame && scene.is_live()) hooks.at_frame([&] { return report_so_far(false); });
   });
 
   results.end_run();
-  RunReport report = report_of(run->whole(), scene, options, counts);
-  report.threads = run->threads();
-  report.parts = run->parts();
-  complete_report(options, scene, followed_approach(*run), warn, report);
+  RunReport report = report_so_far(true);
+  for (const std::string& line : scene.live_warnings()) warn(line);
+  complete_report(options, scene, report.approach, warn, report);
   if (report.stride) results.add_certificate(*report.stride, scene);
   Times times{std::vector<std::vector<double>>(report.structures.size()),
               std::vector<std::vector<double>>(report.structures.size())};
@@ -270,9 +296,8 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   for (std::size_t round = 1; round < options.rounds; ++round) {
     const auto again =
         open_parallel_run(options, scene, AuditMode::none, parallel, [](const std::string&) {});
-    run_steps(*again, options, [&](std::size_t frame) {
-      progress(round * scene.step_count() + frame, 0, options.rounds * scene.step_count());
-    });
+    run_steps(*again, options,
+              [&](std::size_t frame) { progress(round * scene.step_count() + frame, 0, total); });
     add_round(*again, times);
   }
   report.rounds = options.rounds;

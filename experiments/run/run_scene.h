@@ -11,6 +11,7 @@
 
 #include "experiments/events/closest_approach.h"
 #include "experiments/events/event_distribution.h"
+#include "experiments/program/live_output.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_results.h"
@@ -48,6 +49,9 @@ class StepCounts {
   void end_step(std::size_t step, RunResults* results);
   /// In the order of the run's structures.
   [[nodiscard]] const std::vector<EventCourse>& courses() const { return courses_; }
+  /// Return the number of steps and of external events so far.
+  [[nodiscard]] std::size_t steps() const { return steps_; }
+  [[nodiscard]] std::uint64_t events() const { return events_; }
   /// Returns the number of pairs in contact at the first frame, or nothing if the run has no contacts.
   [[nodiscard]] std::optional<std::uint64_t> contacts_at_start() const { return contacts_at_start_; }
 
@@ -55,11 +59,13 @@ class StepCounts {
   KineticRun& run_;
   const Scene& scene_;
   std::vector<EventCourse> courses_;
+  std::size_t steps_ = 0;
+  std::uint64_t events_ = 0;
   std::optional<std::uint64_t> contacts_at_start_;
 };
 
 /// Called with the number of motion steps done, the completed share of the current step, and the total number
-/// of steps.
+/// of steps, which is 0 if it is unknown.
 using Progress = std::function<void(std::size_t done, double within, std::size_t total)>;
 
 /// Reports the progress within a step. A step takes long if the structures are audited between all events.
@@ -99,6 +105,12 @@ void complete_report(const RunOptions& options, const Scene& scene,
 /// `results`, which the caller delivers. Throws InputError for errors that the user can fix. Throws
 /// AuditError (kds/kinetic_structure.h) if a structure disagrees with its static rebuild.
 [[nodiscard]] RunReport run_scene(const RunOptions& options, const Progress& progress,
-                                  const std::function<void(const std::string&)>& warn, RunResults& results);
+                                  const std::function<void(const std::string&)>& warn, RunResults& results,
+                                  const LiveHooks<RunReport>& hooks = {});
+/// Does the same over a scene that is loaded. `warnings` are passed on once the structures accept the scene.
+[[nodiscard]] RunReport run_over(const Scene& scene, HeldWarnings& warnings, const RunOptions& options,
+                                 const Progress& progress,
+                                 const std::function<void(const std::string&)>& warn, RunResults& results,
+                                 const LiveHooks<RunReport>& hooks = {});
 
 }  // namespace kds

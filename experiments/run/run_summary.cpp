@@ -190,10 +190,12 @@ std::vector<SummaryRow> summary_rows(const RunReport& report) {
   rows.push_back(row(report, "seconds", false,
                      time(&StructureReport::seconds, &StructureReport::of_seconds, report.rounds)));
   rows.push_back(row(report, "first build", true, time(&StructureReport::build_seconds)));
-  rows.push_back(
-      row(report, "static build at every frame", true,
-          time(&StructureReport::static_seconds, &StructureReport::of_static_seconds, report.rounds)));
-  rows.push_back(row(report, "kinetic / static", true, ratio(report.rounds)));
+  if (!report.live) {
+    rows.push_back(
+        row(report, "static build at every frame", true,
+            time(&StructureReport::static_seconds, &StructureReport::of_static_seconds, report.rounds)));
+    rows.push_back(row(report, "kinetic / static", true, ratio(report.rounds)));
+  }
   rows.push_back(row(report, "rebuilds", false, count(&StructureReport::rebuilds)));
   rows.push_back(row(report, "audits", false, count(&StructureReport::audits_run)));
   rows.push_back(row(report, "failed", true, count(&StructureReport::audits_failed)));

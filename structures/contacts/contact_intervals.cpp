@@ -192,4 +192,11 @@ void ContactIntervals::finish(std::size_t last_step, const FrameStamp& from, con
   in_contact_ = 0;
 }
 
+void ContactIntervals::finish_copy(Sink sink, std::size_t last_step, const FrameStamp& from,
+                                   const FrameStamp& to) const {
+  ContactIntervals copy(*this);
+  copy.sink_ = std::move(sink);
+  copy.finish(last_step, from, to);
+}
+
 }  // namespace kds

@@ -103,6 +103,9 @@ class ContactIntervals final : public EventListener {
   /// Ends all open contacts at the end of the run's last step, which leads from one of these frames to the
   /// other. Call it once.
   void finish(std::size_t last_step, const FrameStamp& from, const FrameStamp& to);
+  /// Passes to `sink` what `finish` would pass on if the run ended here, between two steps. The run goes on
+  /// undisturbed.
+  void finish_copy(Sink sink, std::size_t last_step, const FrameStamp& from, const FrameStamp& to) const;
 
   /// Returns the number of pairs in contact now.
   [[nodiscard]] std::size_t size() const { return in_contact_; }

@@ -4,10 +4,8 @@
 
 namespace kds {
 
-FrameContacts::FrameContacts(std::span<const std::size_t> spacings, std::size_t bridge, std::size_t steps)
-    : bridge_(bridge) {
-  for (const std::size_t spacing : spacings)
-    rows_.push_back({{spacing, steps * ticks_per_frame / spacing + 1}, 0, {}});
+FrameContacts::FrameContacts(std::span<const std::size_t> spacings, std::size_t bridge) : bridge_(bridge) {
+  for (const std::size_t spacing : spacings) rows_.push_back({{spacing, 0}, 0, {}});
 }
 
 /// Returns the samples in a closed interval.
@@ -95,7 +93,7 @@ void FrameContacts::add_outer(const ContactInterval& interval) {
   }
 }
 
-void FrameContacts::finish() {
+void FrameContacts::finish(std::size_t steps) {
   for (auto& [key, pair] : pairs_) {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       Seen& seen = seen_[pair.index + k];
@@ -104,6 +102,8 @@ void FrameContacts::finish() {
       close_outer(seen, rows_[k].sums[dual]);
     }
   }
+  for (Row& row : rows_) row.sampling.samples = steps * ticks_per_frame / row.sampling.spacing + 1;
+  std::erase_if(rows_, [](const Row& row) { return row.sampling.samples < 2; });
 }
 
 }  // namespace kds

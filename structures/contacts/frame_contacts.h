@@ -64,16 +64,16 @@ class FrameContacts {
     }
   };
 
-  /// Each spacing is in ticks. `steps` is the number of steps of the run.
-  FrameContacts(std::span<const std::size_t> spacings, std::size_t bridge, std::size_t steps);
+  /// Each spacing is in ticks.
+  FrameContacts(std::span<const std::size_t> spacings, std::size_t bridge);
 
   /// Adds an exact interval within the inner or the outer cutoff, without any gap. Intervals of one pair come
   /// in their order, and inner ones before the outer one that contains them. The listener of the inner cutoff
   /// is therefore registered first. With one cutoff, there are only inner intervals.
   void add_inner(const ContactInterval& interval);
   void add_outer(const ContactInterval& interval);
-  /// Ends all contacts.
-  void finish();
+  /// Ends all contacts, after this number of steps. Rows with one sample only are left out.
+  void finish(std::size_t steps);
 
   /// In the order of the spacings. Complete after finish().
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }

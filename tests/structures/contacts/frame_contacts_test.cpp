@@ -38,7 +38,7 @@ FrameContacts sampled(const std::vector<Space>& steps, const Setting& setting) {
   };
   Contacts<3> inner(simulator, motion, pairs, radii(setting.inner));
   Contacts<3> outer(simulator, motion, pairs, radii(setting.outer));
-  FrameContacts frames(setting.spacings, setting.bridge, steps.size());
+  FrameContacts frames(setting.spacings, setting.bridge);
   const auto rule = [&](std::size_t structure) {
     return ContactRule{
         .elements = setting.elements, .inner = structure, .outer = structure, .rounds_times = false};
@@ -58,7 +58,7 @@ FrameContacts sampled(const std::vector<Space>& steps, const Setting& setting) {
   simulator.finish();
   of_inner.finish(steps.size() - 1, before, last);
   of_outer.finish(steps.size() - 1, before, last);
-  frames.finish();
+  frames.finish(steps.size());
   return frames;
 }
 
