@@ -45,7 +45,9 @@ function howMade(meta, result) {
 export function showReport(meta, result, { title, answer, holds = null, more = [], first, side = null, notes = [],
     sections = [] }) {
   document.title = title;
-  const warnings = [...(result.warnings ?? []), ...notes];
+  const goesOn = result.complete === false ? ["The run goes on. These are the results so far: load the page again for newer ones."]
+    : [];
+  const warnings = [...goesOn, ...(result.warnings ?? []), ...notes];
   byId("report").replaceChildren(...[
     make("header", {}, make("h1", {}, title),
       meta.replay ? make("a", { class: "button", href: encodeURI(meta.replay) }, "Open the replay") : null),
