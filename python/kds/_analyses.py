@@ -1,5 +1,9 @@
 """The program's commands besides ``kds run``, as functions."""
 
+import csv
+import json
+import os
+
 import numpy as np
 
 from . import _kds, _lifetimes, _plots
@@ -164,6 +168,38 @@ def contacts_of_replicas(replicas, *, cutoff, verbose=False, **options):
     if not isinstance(replicas, (list, tuple)) or len(replicas) == 0:
         raise InputError("replicas: expected a list with an input for each replica, such as ['a.dcd', 'b.dcd', 'c.dcd']")
     return Replicas([contacts(one, cutoff=cutoff, verbose=verbose, **options) for one in replicas])
+
+
+def _contacts_in(folder):
+    """Returns the :class:`Contacts` that ``kds contacts --out`` has written to a folder."""
+    with open(os.path.join(folder, "intervals.csv"), newline="", encoding="utf-8") as file:
+        header, *lines = csv.reader(file)
+    columns = dict(zip(header, zip(*lines) if lines else [()] * len(header)))
+    found = {"names": None, "first": np.array(columns["i"], int), "second": np.array(columns["j"], int)}
+    for name, column in (("begin_frame", "begin_frame"), ("end_frame", "end_frame"), ("begin_time", "begin_picoseconds"),
+                         ("end_time", "end_picoseconds"), ("length", "length")):
+        found[name] = np.array(columns.get(column, ()), float)
+    for name in ("open_at_start", "open_at_end"):
+        found[name] = np.array(columns[name]) == "true"
+    for name, file_name in (("json", "contacts.json"), ("table", "contacts.csv")):
+        with open(os.path.join(folder, file_name), encoding="utf-8") as file:
+            found[name] = file.read()
+    return Contacts({**found, "columns": found["table"].partition("\n")[0], "names": json.loads(found["json"])["names"]})
+
+
+def contacts_of_parts(folder):
+    """Reads the parts that ``kds contacts --out DIR --continue`` has written, and pools them.
+
+    ``folder`` is DIR. The parts are the results in DIR itself, DIR/part2, DIR/part3 and so on. Returns :class:`kds.Replicas`
+    with a run for each part. A contact that a part cuts off is censored there, and is not joined with one of the next part.
+    Intervals come from the spread between parts. They hold if parts last much longer than contacts.
+    """
+    if not os.path.isfile(os.path.join(folder, "contacts.json")):
+        raise InputError(f"{folder}: has no contacts.json; expected a folder that kds contacts --out has written")
+    parts = [folder]
+    while os.path.isdir(part := os.path.join(folder, f"part{len(parts) + 1}")):
+        parts.append(part)
+    return Replicas([_contacts_in(part) for part in parts])
 
 
 class Comparison(Result):

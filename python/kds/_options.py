@@ -19,7 +19,7 @@ OF_THE_INPUT = (*INPUT, *OF_FILES)
 OF_LIVE = ("until", "patience", "rate")  # of running simulations
 # Options of the program that are no arguments, and why.
 _NO_ARGUMENTS = {
-    **dict.fromkeys(("out", "replace", "paper", "json", "quiet", "view", "dump", "events", "log", "data", "o", "beads"),
+    **dict.fromkeys(("out", "replace", "every", "continue", "paper", "json", "quiet", "view", "dump", "events", "log", "data", "o", "beads"),
                     "results are attributes of what is returned"),
     "frames": "expected start, stop, step", "format": "expected a path with the ending of its format",
     "rounds": "a run is made once; kds.compare takes it", "help": "help(kds.run) explains all arguments"}

@@ -2,6 +2,7 @@
 
 import itertools
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
@@ -9,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import kds
-from data import DCD, PDB, coil
+from data import DCD, PDB, coil, program
 from kds._lifetimes import Timeline, pooled_survival, ratio, student_95, survival_at
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "experiments" / "paper"))
@@ -128,6 +129,28 @@ class Replicas(unittest.TestCase):
                 kds.contacts_of_replicas(replicas, **self.options)
         with self.assertRaisesRegex(kds.InputError, "^replicas: differ in their elements"):
             kds.contacts_of_replicas([wandering(beads=8), wandering(beads=9)], **self.options)
+
+
+class Parts(unittest.TestCase):
+    def test_they_are_pooled_as_replicas(self):
+        sources = [wandering(seed=seed) for seed in range(3)]
+        with tempfile.TemporaryDirectory() as scratch:
+            out = Path(scratch) / "out"
+            for source, part in zip(sources, (out, out / "part2", out / "part3")):
+                frames = "".join(f"8\n\n{chr(10).join('C ' + ' '.join(map(str, bead)) for bead in frame)}\n" for frame in source)
+                (Path(scratch) / "run.xyz").write_text(frames)
+                program("contacts", str(Path(scratch) / "run.xyz"), "--cutoff", "5", "--apart", "1", "--out", str(part))
+            found, expected = kds.contacts_of_parts(out), kds.contacts_of_replicas(sources, **Replicas.options)
+            self.assertEqual(len(found.runs), 3)
+            for name, value in expected.all.items():
+                self.assertAlmostEqual(found.all[name], value, places=9)
+            for one, other in ((found.survival([1, 2]), expected.survival([1, 2])),
+                               (found.correlation([1]), expected.correlation([1]))):
+                np.testing.assert_allclose(np.array(one.to_records() if hasattr(one, "to_records") else one).tolist(),
+                                           np.array(other.to_records() if hasattr(other, "to_records") else other).tolist())
+            (out / "contacts.json").unlink()
+            with self.assertRaisesRegex(kds.InputError, "has no contacts.json"):
+                kds.contacts_of_parts(out)
 
 
 class Intervals(unittest.TestCase):
