@@ -11,6 +11,7 @@
 #include "experiments/program/commands.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
+#include "experiments/program/live_output.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/page_of_run.h"
 #include "experiments/run/run_options.h"
@@ -101,6 +102,11 @@ CompareOptions parse_compare_options(const Arguments& arguments) {
       read_arguments(with_inputs(kCompareCommand, true), compare_options(), arguments, options);
   take_inputs(parsed, kCompareCommand.name, options);
   options.takes_live = true;
+  refuse_if_live(options, parsed.has("--rounds"), "--rounds",
+                 "repeats the runs, and a running simulation gives each frame once; expected no rounds");
+  refuse_if_live(options, options.view.has_value(), "--view",
+                 "reads all frames again; expected a trajectory that the simulation has written");
+  if (is_live(options)) options.rounds = 1;
   return options;
 }
 
@@ -128,8 +134,11 @@ int compare_command(const Arguments& arguments) {
   json["pooled"] = pooled_columns().json(pooled_rows(comparison));
   json["rows"] = compare_columns(comparison).json(comparison.rows);
   json["warnings"] = command.warnings();
+  if (comparison.live) add_live(json, *comparison.live);
   command.deliver(json, compare_columns(comparison).csv(comparison.rows), compare_table(comparison));
-  return is_live(options) && comparison.inputs.front().truncated ? 1 : 0;
+  return comparison.live
+             ? end_of_live_run(command.bar(), *comparison.live, comparison.inputs.front().truncated)
+             : 0;
 }
 
 }  // namespace kds

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <compare>
 #include <exception>
 #include <filesystem>
@@ -462,10 +463,7 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
   if (options.inputs.size() > 1)
     throw InputError(fmt::format("{}: a running simulation is compared alone; expected no other input",
                                  file_names(options)));
-  if (options.view)
-    throw InputError("--view",
-                     "needs a second pass over the frames; a running simulation gives each frame once");
-  struct LiveRun {
+  struct OneRun {
     RunOptions options;
     std::size_t stride = 1;
     bool event_by_event = false;
@@ -478,13 +476,15 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
   RunOptions first = run_of(options, 0, options.motions.front());
   first.velocities = options.velocities;
   first.takes_live = true;
+  warn_of_threads(options.threads, warn);
   LiveInput live = open_live(first, warn);
+  const auto start = std::chrono::steady_clock::now();
   FrameFan fan(*live.frames);
-  std::vector<LiveRun> runs;
+  std::vector<OneRun> runs;
   for (const FrameMotion motion : options.motions)
     for (const std::size_t stride : options.strides)
       for (const bool event_by_event : {false, true}) {
-        LiveRun& run = runs.emplace_back();
+        OneRun& run = runs.emplace_back();
         run.options = run_of(options, 0, motion);
         run.options.threads = 1;
         run.stride = stride;
@@ -493,7 +493,7 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
       }
   std::mutex mutex;
   std::exception_ptr error;
-  const auto work = [&](LiveRun& run) {
+  const auto work = [&](OneRun& run) {
     try {
       try {
         run.scene = std::make_unique<Scene>(
@@ -515,7 +515,7 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
     }
   };
   std::vector<std::thread> threads;
-  for (LiveRun& run : runs) threads.emplace_back([&work, &run] { work(run); });
+  for (OneRun& run : runs) threads.emplace_back([&work, &run] { work(run); });
   std::exception_ptr interrupted;
   try {
     fan.pump();
@@ -529,6 +529,8 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
   Comparison comparison;
   comparison.inputs.push_back(described(first, *runs.front().scene, InputNames(options), 0));
   comparison.inputs.front().truncated = live.frames->is_truncated();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  comparison.live = {true, seconds.count(), live.frames->live().value_or(LiveState{})};
   for (std::size_t i = 0; i < runs.size(); i += 2) {
     if (!runs[i].scene || !runs[i + 1].scene) {
       warn(fmt::format("{} {}: sees fewer than two frames and is left out", "--strides"_arg, runs[i].stride));

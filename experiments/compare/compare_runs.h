@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/compare/compare_command.h"
+#include "experiments/program/live_output.h"
 #include "experiments/program/mean_interval.h"
 #include "experiments/program/timing.h"
 #include "experiments/run/run_options.h"
@@ -148,6 +149,7 @@ struct PooledRow {
 struct Comparison {
   std::vector<ComparedInput> inputs;
   std::vector<CompareRow> rows;  ///< ordered by input, motion, stride and structure
+  std::optional<LiveRun> live;   ///< if the input is a running simulation
 };
 
 /// Returns a row for each structure, stride and motion; none if there is only one input.
