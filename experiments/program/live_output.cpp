@@ -95,8 +95,9 @@ void add_live(Json& json, const LiveRun& live) {
 int end_of_live_run(ProgressBar& bar, const LiveRun& live, bool is_cut) {
   print_note(bar,
              fmt::format("waited {:.1f} s for the simulation in {:.1f} s; the simulation may have waited "
-                         "{:.1f} s for kds",
-                         live.state.seconds_waited, live.seconds, live.state.seconds_full));
+                         "{:.1f} s for kds{}",
+                         live.state.seconds_waited, live.seconds, live.state.seconds_full,
+                         live.state.seconds_full > 0 ? ", or dropped frames meanwhile, as LAMMPS does" : ""));
   return is_cut ? 1 : 0;
 }
 

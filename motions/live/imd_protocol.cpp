@@ -159,7 +159,8 @@ bool ImdProtocol::begin() {
   std::optional<Header> header = next_header(true);
   while (header && version_ == 2 && header->is(ImdPacket::energies)) {
     check_length(*header, 1);
-    std::array<char, energies_size> skipped;
+    partial_.step = read_number<std::int32_t>();
+    std::array<char, energies_size - sizeof(std::int32_t)> skipped;
     read_whole(skipped);
     header = next_header(false);
   }

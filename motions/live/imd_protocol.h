@@ -20,7 +20,8 @@
 // | 15 forces | atoms | three floats an atom |
 // clang-format on
 //
-// Version 2 has the types 0 to 4; a frame is a packet of coordinates. Version 3 sends session info after the
+// Version 2 has the types 0 to 4; a frame is a packet of coordinates, in GROMACS after one of energies, whose
+// steps are one more than those of the coordinates. Version 3 sends session info after the
 // handshake, and then for each frame the packets it announced, in the order 12, 1, 13, 2, 14, 15. A frame is
 // complete after the last of these. All other types (go 3, kill 5, forces of the user 6, pause 7, rate 8,
 // error 9, resume 11, wait 16) are words of the receiving side; a peer that sends them is refused.

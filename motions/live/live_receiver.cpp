@@ -50,7 +50,8 @@ void LiveReceiver::receive() {
     why = error.what();
   }
   const std::lock_guard lock(mutex_);
-  if (!closing_ && !live_end_requested()) broken_ = why;
+  left_ = closing_ || live_end_requested();
+  if (!left_) broken_ = why;
   ended_ = true;
   changed_.notify_all();
 }
@@ -99,6 +100,11 @@ void LiveReceiver::close() {
 std::string LiveReceiver::broken() const {
   const std::lock_guard lock(mutex_);
   return broken_;
+}
+
+bool LiveReceiver::left() const {
+  const std::lock_guard lock(mutex_);
+  return left_;
 }
 
 LiveState LiveReceiver::state() const {

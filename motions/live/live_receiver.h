@@ -44,6 +44,8 @@ class LiveReceiver {
   void close();
   /// Returns why the connection broke, in one line; empty if it did not before `close`.
   [[nodiscard]] std::string broken() const;
+  /// Returns whether the receiving ended before the simulation, by `close` or by a request for the end.
+  [[nodiscard]] bool left() const;
   [[nodiscard]] LiveState state() const;
 
  private:
@@ -64,6 +66,7 @@ class LiveReceiver {
   std::size_t capacity_ = 4;  ///< frames
   bool ended_ = false;        ///< no more frames come
   bool closing_ = false;
+  bool left_ = false;
   std::string broken_;
   LiveState state_;
   std::optional<Clock::time_point> full_since_;

@@ -92,6 +92,11 @@ class ImdFrames final : public AtomFrames {
   [[nodiscard]] std::vector<std::string> closing_notes() const override {
     std::vector<std::string> notes;
     if (is_cut()) notes.push_back(cut_);
+    if (receiver_.left())
+      notes.push_back(
+          name_ +
+          ": disconnected before the end of the simulation, which may now wait for another client "
+          "(LAMMPS does without nowait on, GROMACS with -imdwait)");
     if (const std::string note = steps_.note(); !note.empty()) notes.push_back(name_ + ": " + note);
     return notes;
   }
