@@ -11,6 +11,7 @@
 #include "experiments/program/option_values.h"
 #include "motions/base/input_error.h"
 #include "motions/base/input_file.h"
+#include "motions/frames/periodic.h"
 #include "motions/live/live_address.h"
 #include "motions/readers/instance.h"
 #include "motions/readers/reader_registry.h"
@@ -267,6 +268,27 @@ const Option<InputOptions>& velocities_option() {
   return option;
 }
 
+namespace {
+
+Cell parse_cell(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& part : split(text, ','))
+    numbers.push_back(parse_real("--cell", part, {0, 1e9, true}));
+  if (numbers.size() != 3 && numbers.size() != 6)
+    throw InputError(
+        "--cell",
+        fmt::format("expected three lengths, or three lengths and three angles, found {}", in_quotes(text)));
+  numbers.resize(6, 90);
+  const CellRead cell = read_cell_from_angles(Eigen::Map<const Eigen::Vector3d>(numbers.data()),
+                                              Eigen::Map<const Eigen::Vector3d>(numbers.data() + 3));
+  if (!cell.cell)
+    throw InputError("--cell", fmt::format("{}: {}", in_quotes(text),
+                                           cell.doubt.empty() ? "expected lengths from 1 on" : cell.doubt));
+  return *cell.cell;
+}
+
+}  // namespace
+
 const OptionList<InputOptions>& live_options() {
   static const std::vector<Option<InputOptions>> options{
       {{"--until", "TIME",
@@ -280,6 +302,11 @@ const OptionList<InputOptions>& live_options() {
        [](InputOptions& o, const std::string& text) {
          o.reading.patience = parse_real("--patience", text, {0, 1e9, true});
        }},
+      {{"--cell", "A,B,C",
+        "the periodic cell of a running simulation that sends none and keeps it: three lengths in angstrom, "
+        "and "
+        "three angles in degrees unless they are right: A,B,C,ALPHA,BETA,GAMMA (default: none)"},
+       [](InputOptions& o, const std::string& text) { o.reading.cell = parse_cell(text); }},
       {{"--rate", "N", "ask a running simulation to send every Nth step only (default: what it sends)"},
        [](InputOptions& o, const std::string& text) {
          o.reading.rate = static_cast<unsigned>(parse_whole_number("--rate", text, 1, 1'000'000'000));

@@ -51,6 +51,7 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   refuse(options.obstacle.has_value(), "--obstacle");
   refuse(reading.until.has_value(), "--until");
   refuse(reading.patience.has_value(), "--patience");
+  refuse(reading.cell.has_value(), "--cell");
   refuse(reading.rate.has_value(), "--rate");
   return read_instance(*instance);
 }
@@ -223,6 +224,7 @@ void check_live_options(const InputOptions& options) {
   const ReadOptions& reading = options.reading;
   const std::string_view given = reading.until      ? "--until"
                                  : reading.patience ? "--patience"
+                                 : reading.cell     ? "--cell"
                                  : reading.rate     ? "--rate"
                                                     : "";
   if (!given.empty())

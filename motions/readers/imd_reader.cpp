@@ -49,7 +49,10 @@ class ImdFrames final : public AtomFrames {
         receiver_(parse_live_address(address), options.patience.value_or(60), options.rate, options.on_wait),
         until_(options.until),
         time_step_(options.time_step),
+        cell_(options.cell),
         steps_(options.rate) {
+    if (cell_ && receiver_.sends_cells())
+      throw InputError("--cell", name_ + " sends its cell; expected no other");
     if (options.velocities) receiver_.protocol().ask_velocities();
     // Without a topology only a whole frame proves the number of atoms.
     if (!options.topology && !advance())
@@ -58,7 +61,7 @@ class ImdFrames final : public AtomFrames {
 
   [[nodiscard]] std::size_t atom_count() const override { return receiver_.atom_count(); }
   [[nodiscard]] FramesHeld held() const override { return {.open = true}; }
-  [[nodiscard]] bool may_have_cell() const override { return receiver_.sends_cells(); }
+  [[nodiscard]] bool may_have_cell() const override { return cell_ || receiver_.sends_cells(); }
 
   void choose(std::span<const std::size_t> atoms) override {
     if (frames_ > 0) return;  // there is no topology to choose from
@@ -77,6 +80,7 @@ class ImdFrames final : public AtomFrames {
   void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) override {
     if (frames_ != k + 1) throw std::logic_error("a frame of a simulation is read before it is there");
     frame.stamp.picoseconds = frame_.picoseconds;
+    frame.cell = cell_;
     if (frame_.cell) {
       CellRead cell = read_cell(Eigen::Map<const Eigen::Matrix3f>(frame_.cell->data()).cast<double>());
       frame.cell = cell.cell;
@@ -132,6 +136,7 @@ class ImdFrames final : public AtomFrames {
   std::string name_;
   LiveReceiver receiver_;
   std::optional<double> until_, time_step_;
+  std::optional<Cell> cell_;  // that of --cell
   StepSpacing steps_;
   bool chosen_ = false;     // frames have only the chosen atoms
   LiveFrame frame_;         // the frame taken last

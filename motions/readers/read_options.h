@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "motions/frames/frame_selection.h"
+#include "motions/frames/periodic.h"
 #include "motions/readers/selection.h"
 
 namespace kds {
@@ -52,7 +53,7 @@ struct ReadOptions {
   /// None: chains; but beads for a file that names no molecules and whose beads are a fluid
   /// (SequenceInCell).
   std::optional<Unwrap> unwrap = {};
-  bool velocities = false;  ///< velocities are read, where a format has them
+  bool velocities = false;             ///< velocities are read, where a format has them
   std::vector<Selection> groups = {};  ///< groups of the selected beads, at most eight (BeadGroups)
 
   // For running simulations (imd_reader.h); readers of files leave these unread.
@@ -60,6 +61,7 @@ struct ReadOptions {
   std::optional<double> until = {};
   /// Seconds to wait for the connection, and for each frame; none: 60.
   std::optional<double> patience = {};
+  std::optional<Cell> cell = {};       ///< of all frames, for simulations that send no cells
   std::optional<unsigned> rate = {};   ///< asks the simulation to send every rate-th step, from 1
   std::function<void()> on_wait = {};  ///< called once if the simulation does not listen yet
 };

@@ -42,6 +42,7 @@ class _Input(_Frames, _Source): ...
 class _Live(TypedDict, total=False):
     until: Optional[float]
     patience: Optional[float]
+    cell: Optional[Sequence[float]]
     rate: Optional[int]
 
 class _Settings(TypedDict, total=False):

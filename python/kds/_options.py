@@ -16,7 +16,7 @@ INPUT = ("start", "stop", "step", "radius", "units", "necklaces", "times", "velo
 # Options of the program that say how files are read.
 OF_FILES = ("topology", "select", "chain", "obstacle", "dt", "until_damage", "unwrap", "no_periodic")
 OF_THE_INPUT = (*INPUT, *OF_FILES)
-OF_LIVE = ("until", "patience", "rate")  # of running simulations
+OF_LIVE = ("until", "patience", "cell", "rate")  # of running simulations
 # Options of the program that are no arguments, and why.
 _NO_ARGUMENTS = {
     **dict.fromkeys(("out", "replace", "every", "continue", "paper", "json", "quiet", "view", "dump", "events", "log", "data", "o", "beads"),

@@ -75,6 +75,25 @@ class LiveRuns(unittest.TestCase):
         self.assertEqual(found.fingerprint, expected.fingerprint)
         np.testing.assert_array_equal(found.times, times)
 
+    def test_a_cell_for_simulations_that_send_none(self):
+        positions = wandering()
+        options = dict(structures=["contacts"])
+        pushed = kds.KineticRun.pushed(positions.shape[1], 1.2, cell=[9, 10, 11, 80, 90, 90], **options)
+        for frame in positions:
+            pushed.push(frame)
+        pushed.finish()
+        with Simulation(positions) as address:
+            found = kds.run(address, radius=1.2, cell=[9, 10, 11, 80, 90, 90], unwrap="beads", **options)
+        self.assertEqual(found.fingerprint, pushed.fingerprint)
+        self.assertNotEqual(found.fingerprint, kds.run(positions, radius=1.2, **options).fingerprint)
+        for cell, line in (([9, 10], "expected three lengths"), ([9, 10, 11, 90, 90, 200], "cell")):
+            with self.assertRaisesRegex(kds.InputError, line):
+                kds.run("imd://127.0.0.1:1", radius=1, cell=cell)
+        box = np.diag([30.0, 31.0, 32.0])
+        with Simulation([(frame, None, box) for frame in positions], version=3) as address:
+            with self.assertRaisesRegex(kds.InputError, "sends its cell"):
+                kds.run(address, radius=1, cell=[9, 10, 11])
+
     def test_contacts_streams_and_comparisons(self):
         positions = wandering()
         simulation = Simulation(positions, version=3)
