@@ -5,18 +5,19 @@ serve() is all that a generator of frames in Python needs. As a program it sends
 """
 
 import argparse
+import contextlib
 import itertools
 import select
 import socket
 import struct
+import subprocess
 import sys
 import time
 
 import numpy as np
 
-DISCONNECT, FCOORDS, GO, HANDSHAKE, PAUSE, TRATE = 0, 2, 3, 4, 7, 8
-SESSION, RESUME, TIME, BOX, VELOCITIES = 10, 11, 12, 13, 14
-NAMES = {DISCONNECT: "DISCONNECT", GO: "GO", PAUSE: "PAUSE", TRATE: "TRATE", RESUME: "RESUME"}
+DISCONNECT, FCOORDS, GO, HANDSHAKE, TRATE, SESSION, TIME, BOX, VELOCITIES = 0, 2, 3, 4, 8, 10, 12, 13, 14
+NAMES = {DISCONNECT: "DISCONNECT", GO: "GO", TRATE: "TRATE"}
 
 
 def packet(kind, number, body=b""):
@@ -41,10 +42,10 @@ def packed(step, frame, version, order, dt):
 
 
 def serve(frames, listener, version=2, order="<", dt=0.002, skip=(), delay=0, wrapped=False):
-    """Waits for one client at `listener`, a socket of listen(), and sends it each of `frames` until it leaves; see packed().
-    Steps in `skip` are left out. `order` is the byte order: "<" or ">"; `dt` is in picoseconds; `delay` is in seconds. bytes
-    in place of a frame are sent as they are. Returns the number of frames sent and the client's messages, (type, number)."""
-    client, rate, messages, sent, paused = listener.accept()[0], 1, [], 0, False
+    """Waits for one client at `listener`, a socket of listen(), and sends it the frames until it leaves. packed() says what a
+    frame is; bytes are sent as they are. Steps in `skip` are left out. `order` is the byte order, "<" or ">"; `dt` is in
+    picoseconds; `delay` is in seconds. Returns the number of frames sent and the client's messages, (type, number)."""
+    client, rate, messages, sent = listener.accept()[0], 1, [], 0
     client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     frames = iter(frames)
     first = next(frames)
@@ -54,7 +55,7 @@ def serve(frames, listener, version=2, order="<", dt=0.002, skip=(), delay=0, wr
             has = [isinstance(first, tuple) and first[k] is not None for k in (1, 2)]
             client.sendall(packet(SESSION, 7, bytes([1, 0, has[1], 1, wrapped, has[0], 0])))
         for step, frame in enumerate(itertools.chain([first], frames)):
-            while not messages or paused or select.select([client], [], [], 0)[0]:  # the first message is GO
+            while not messages or select.select([client], [], [], 0)[0]:  # the first message is GO
                 head = client.recv(8, socket.MSG_WAITALL)
                 if len(head) < 8:
                     return sent, messages
@@ -62,7 +63,6 @@ def serve(frames, listener, version=2, order="<", dt=0.002, skip=(), delay=0, wr
                 kind, number = messages[-1]
                 if kind == DISCONNECT:
                     return sent, messages
-                paused = kind == PAUSE and not (paused and version == 2)
                 rate = max(number, 1) if kind == TRATE else rate
             if isinstance(frame, bytes):
                 client.sendall(frame)
@@ -83,6 +83,21 @@ def serve(frames, listener, version=2, order="<", dt=0.002, skip=(), delay=0, wr
 def listen(port=0):
     """Returns a socket that waits for a client at a port of the loopback address; 0 takes a free one."""
     return socket.create_server(("127.0.0.1", port))
+
+
+def free_port():
+    with listen() as listener:
+        return listener.getsockname()[1]
+
+
+@contextlib.contextmanager
+def running(*command, **options):
+    """Runs a program during a block, which gets its process. Kills the program at the end of the block if it still runs."""
+    with subprocess.Popen([str(word) for word in command], **options) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
 
 
 def chain(atoms, seed=1):
@@ -150,8 +165,8 @@ def main():
     print(listener.getsockname()[1], flush=True)
     skip = {int(step) for step in given.drop.split(",") if step}
     sent, messages = serve(behaved(), listener, given.version, order, given.dt, skip, given.delay, given.wrapped)
-    words = ", ".join(f"{NAMES.get(kind, kind)}{f' {number}' if kind == TRATE else ''}" for kind, number in messages)
-    print(f"{sent} frames sent; the client said {words or 'nothing'}", file=sys.stderr)
+    words = [f"{NAMES.get(kind, kind)}{f' {number}' if kind == TRATE else ''}" for kind, number in messages]
+    print(f"{sent} frames sent; the client said {', '.join(words)}", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -9,9 +9,9 @@ import contextlib
 import json
 import os
 import shutil
-import socket
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 PEER, KDS, PRINT_FRAMES = sys.argv[1:4]
@@ -26,24 +26,13 @@ except ImportError as error:
     sys.exit(77)
 PAPER = Path(__file__).resolve().parents[2] / "experiments/paper"
 sys.path.insert(0, str(PAPER))
+from imd_server import free_port, running  # noqa: E402
 from simulate import MDP, read_dump, run  # noqa: E402
 
 EXAMPLE = Path("/usr/share/lammps/examples/peptide/data.peptide")
+RESULTS = {"run": ("summary.json", "events.csv"), "contacts": ("contacts.json", "intervals.csv")}
+FOLLOWED = ["--structures", "wrapped,contacts"]
 SHAKE = "fix 2 all shake 0.000001 50 0 b 4 6 8 10 12 14 18 a 31\n"
-FENE = """units lj
-atom_style bond
-read_data chain.data
-bond_style fene
-bond_coeff 1 30.0 1.5 1.0 1.0
-special_bonds fene
-pair_style lj/cut 1.122462
-pair_coeff 1 1 1.0 1.0 1.122462
-group written id >= 1
-velocity all create 1.0 12345
-fix 1 all nve
-fix 2 all langevin 1.0 1.0 1.0 904297
-timestep 0.005
-"""
 FAILURES = []
 
 
@@ -56,16 +45,18 @@ def check(holds, message):
 class Chain:
     """Sixty beads that FENE springs join, in LAMMPS."""
 
-    name, steps, inputs = "chain", 2000, ["--dt", "0.005"]
-    choices = {"run": ["--radius", "0.5", "--cutoff", "1.3"], "contacts": ["--cutoff", "3"]}
+    name, steps, file, inputs = "chain", 2000, "frames.bin", ["--dt", "0.005"]
+    choices = {"run": [*FOLLOWED, "--radius", "0.5", "--cutoff", "1.3"], "contacts": ["--cutoff", "3"]}
 
     def prepare(self):
         atoms = "".join(f"{k} 1 1 {(k - 31) * 0.97} {0.3 * (k % 2)} 0\n" for k in range(1, 61))
         bonds = "".join(f"{k} 1 {k} {k + 1}\n" for k in range(1, 60))
-        sides = "".join(f"-40 40 {x}lo {x}hi\n" for x in "xyz")
-        (FOLDER / "chain.data").write_text(f"chain\n\n60 atoms\n59 bonds\n1 atom types\n1 bond types\n\n{sides}\nMasses\n\n1 1.0\n\n"
-                                           f"Atoms # bond\n\n{atoms}\nBonds\n\n{bonds}")
-        return FENE
+        sides = "".join(f"-40 40 {axis}lo {axis}hi\n" for axis in "xyz")
+        (FOLDER / "chain.data").write_text(f"chain\n\n60 atoms\n59 bonds\n1 atom types\n1 bond types\n\n{sides}\nMasses\n\n"
+                                           f"1 1.0\n\nAtoms # bond\n\n{atoms}\nBonds\n\n{bonds}")
+        return ("units lj\natom_style bond\nread_data chain.data\nbond_style fene\nbond_coeff 1 30.0 1.5 1.0 1.0\n"
+                "special_bonds fene\npair_style lj/cut 1.122462\npair_coeff 1 1 1.0 1.0 1.122462\ngroup written id >= 1\n"
+                "velocity all create 1.0 12345\nfix 1 all nve\nfix 2 all langevin 1.0 1.0 1.0 904297\ntimestep 0.005\n")
 
     def command(self, port, steps, stays):
         """Returns the command of a run that sends `steps` frames. If it `stays`, it goes on without a client."""
@@ -84,7 +75,7 @@ class Peptide(Chain):
 
     name, steps = "peptide", 150
     inputs = ["--topology", str(DATA / "trajectories/enkephalin_water.gro"), "--select", "//*", "--dt", "0.002"]
-    choices = {"run": ["--radius", "1", "--cutoff", "4"], "contacts": ["--cutoff", "5"]}
+    choices = {"run": [*FOLLOWED, "--radius", "1", "--cutoff", "4"], "contacts": ["--cutoff", "5"]}
 
     def prepare(self):
         head = (PAPER / "peptide_2fs.in").read_text().split("velocity")[0].replace("${data}", str(EXAMPLE))
@@ -94,24 +85,24 @@ class Peptide(Chain):
 class Cage:
     """The protein trp-cage (PDB entry 1L2Y) in vacuum, in GROMACS."""
 
-    name, steps = "cage", 1000
+    name, steps, file = "cage", 1000, "md.trr"
     inputs = ["--topology", str(FOLDER / "box.gro"), "--dt", "0.002"]
-    choices = {"run": ["--radius", "0.7", "--cutoff", "8"], "contacts": ["--cutoff", "8"]}
+    choices = {"run": [*FOLLOWED, "--radius", "0.7", "--cutoff", "8"], "contacts": ["--cutoff", "8"]}
 
     def __init__(self):
         def gmx(*words):
             run("gmx", "-quiet", *words, folder=FOLDER)
 
-        gmx("pdb2gmx", "-f", DATA / "proteins/1l2y.pdb", "-o", "p.gro", "-p", "t.top", "-ff", "amber99sb-ildn", "-water", "none",
-            "-ignh")
+        gmx("pdb2gmx", "-f", DATA / "proteins/1l2y.pdb", "-o", "p.gro", "-p", "t.top", "-ff", "amber99sb-ildn", "-water",
+            "none", "-ignh")
         gmx("editconf", "-f", "p.gro", "-o", "box.gro", "-box", "8", "-c")
         (FOLDER / "md.mdp").write_text(MDP.replace("PME", "cut-off") + "integrator=md\ndt=0.002\nnsteps=1000\nnstxout=1\n"
                                        "gen_vel=yes\ngen_temp=300\ngen_seed=7\nIMD-group=System\nIMD-nst=1\n")
         gmx("grompp", "-f", "md.mdp", "-c", "box.gro", "-p", "t.top", "-o", "md.tpr", "-maxwarn", "3")
 
     def command(self, port, steps, stays):
-        return ("gmx", "-quiet", "-nobackup", "mdrun", "-nt", "1", "-reprod", "-deffnm", "md", "-nsteps", str(steps), "-imdport",
-                str(port), "-imdterm" if stays else "-imdwait")
+        return ("gmx", "-quiet", "-nobackup", "mdrun", "-nt", "1", "-reprod", "-deffnm", "md", "-nsteps", str(steps),
+                "-imdport", str(port), "-imdterm" if stays else "-imdwait")
 
     def written(self):
         content, at, frames = (FOLDER / "md.trr").read_bytes(), 0, []
@@ -124,77 +115,61 @@ class Cage:
 
 @contextlib.contextmanager
 def started(system, steps=None, stays=False):
-    """Runs a simulation, and ends it behind the block if it still runs. Gives its process and its address."""
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        port = listener.getsockname()[1]
-    with open(FOLDER / "peer.out", "w") as out:
-        process = subprocess.Popen(system.command(port, steps or system.steps, stays), cwd=FOLDER, stdout=out, stderr=out,
-                                   env=dict(os.environ, OMP_NUM_THREADS="1"))
-        try:
-            yield process, f"imd://127.0.0.1:{port}"
-        finally:
-            process.kill()
-            process.wait()
+    """Runs a simulation during a block, which gets its process and its address."""
+    port = free_port()
+    command, environment = system.command(port, steps or system.steps, stays), dict(os.environ, OMP_NUM_THREADS="1")
+    with open(FOLDER / "peer.out", "w") as out, running(*command, cwd=FOLDER, stdout=out, stderr=out, env=environment) as peer:
+        yield peer, f"imd://127.0.0.1:{port}"
 
 
 def kds(command, source, system, out, *more):
-    """Returns the exit code and the lines of standard error, and the events' lines or the intervals that it wrote."""
-    place = FOLDER / out
-    shutil.rmtree(place, ignore_errors=True)
-    log = ["--log", FOLDER / "log"] if command == "run" else []
-    structures = ["--structures", "wrapped,contacts"] if command == "run" else []
-    words = [KDS, command, source, *system.inputs, *structures, *system.choices[command], *more, *log, "--out", place, "--quiet"]
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=300)
-    found = FOLDER / "log" if command == "run" else place / "intervals.csv"
-    lines = found.read_text().splitlines()[2 if command == "run" else 0:] if found.exists() else []
-    return done.returncode, done.stderr, lines
+    """Returns a process of kds that writes its results to the folder `out`."""
+    shutil.rmtree(FOLDER / out, ignore_errors=True)
+    words = [KDS, command, source, *system.inputs, *system.choices[command], *more, "--out", FOLDER / out, "--quiet"]
+    return subprocess.Popen([str(word) for word in words], stderr=subprocess.PIPE, text=True)
 
 
-def frames_of(out, command):
-    return json.loads((FOLDER / out / ("summary.json" if command == "run" else "contacts.json")).read_text())["input"]["frames"]
-
-
-def write_xyz(path, frames):
-    """Writes enough digits to read back the same doubles."""
-    with open(path, "w") as file:
-        for frame in frames.astype(float).tolist():
-            file.write(f"{len(frame)}\n\n" + "".join(f"X {x!r} {y!r} {z!r}\n" for x, y, z in frame))
+def ended(process, command, out):
+    """Returns the exit code of kds, its last words, the number of frames, and its events or intervals."""
+    words = process.communicate(timeout=300)[1].strip()
+    summary, table = RESULTS[command]
+    frames = json.loads((FOLDER / out / summary).read_text())["input"]["frames"]
+    return process.returncode, words, frames, (FOLDER / out / table).read_text()
 
 
 def compare(system):
     with started(system) as (process, address):
-        done = subprocess.run([PRINT_FRAMES, address], capture_output=True, timeout=300)
-        check(process.wait(60) == 0 and done.returncode == 0, f"{system.name}: kds follows to the end {done.stderr.decode()}")
+        done = subprocess.run([PRINT_FRAMES, address], capture_output=True, timeout=300, check=False)
+        check(process.wait(60) == 0 and done.returncode == 0, f"{system.name}: frames are read to the end")
     beads = system.written()
     got = np.frombuffer(done.stdout).reshape(-1, 1 + beads[0].size)[:, 1:].reshape(-1, *beads[0].shape)
     check(got.shape == beads.shape and (got == beads).all(), f"{system.name}: {len(beads)} frames, beads bit for bit")
-    for command in ("run", "contacts"):
+    for command in RESULTS:
         with started(system) as (process, address):
-            code, error, live = kds(command, address, system, "live")
-            check(process.wait(60) == 0 and code == 0, f"{system.name}: {command} ends with the simulation: {error.strip()}")
+            code, words, frames, live = ended(kds(command, address, system, "live"), command, "live")
+            check(process.wait(60) == 0 and code == 0, f"{system.name}: {command} ends with the simulation ({words})")
         beads = system.written()
-        write_xyz(FOLDER / "frames.xyz", beads)
-        code, error, file = kds(command, FOLDER / "frames.xyz", system, "file")
-        check(frames_of("live", command) == len(beads), f"{system.name}: {command} takes all {len(beads)} frames")
-        check(code == 0 and len(file) > 10 and live == file, f"{system.name}: {command}: {len(file)} lines, equal {error}")
+        with open(FOLDER / "frames.xyz", "w") as file:  # enough digits to read back the same doubles
+            for frame in beads.astype(float).tolist():
+                file.write(f"{len(frame)}\n\n" + "".join(f"X {x!r} {y!r} {z!r}\n" for x, y, z in frame))
+        code, words, count, same = ended(kds(command, FOLDER / "frames.xyz", system, "file"), command, "file")
+        check(code == 0 and frames == count == len(beads), f"{system.name}: {command} takes all {frames} frames")
+        check(live == same and same.count("\n") > 10, f"{system.name}: {command} finds the same {same.count(chr(10)) - 1} rows")
 
 
 def leave(system):
-    """kds leaves, and the simulation goes on; the simulation is killed, and kds keeps what it saw."""
-    with started(system, 10**6, True) as (process, address):
-        code, error, live = kds("run", address, system, "live", "--until", "0.2")
-        check(code == 0 and live and process.poll() is None, f"{system.name}: goes on after --until: {error.strip()}")
-    with started(system, 10**6, True) as (process, address):
-        words = [KDS, "contacts", address, *system.inputs, *system.choices["contacts"], "--out", FOLDER / "killed", "--quiet"]
-        shutil.rmtree(FOLDER / "killed", ignore_errors=True)
-        follower = subprocess.Popen([str(word) for word in words], stderr=subprocess.PIPE, text=True)
-        try:
-            follower.communicate(timeout=3)
-        except subprocess.TimeoutExpired:
-            process.kill()
-        error = follower.communicate(timeout=60)[1]
-        frames = frames_of("killed", "contacts")
-        check(follower.returncode in (0, 1) and frames > 2, f"{system.name}: killed after {frames} frames: {error.strip()}")
+    """kds leaves, and the simulation goes on. The simulation is killed, and kds keeps the results of the frames before."""
+    with started(system, 10**6, stays=True) as (process, address):
+        code, words, frames, _ = ended(kds("run", address, system, "left", "--until", "0.2"), "run", "left")
+        written, size = FOLDER / system.file, (FOLDER / system.file).stat().st_size
+        time.sleep(2)
+        check(code == 0 and written.stat().st_size > size, f"{system.name}: goes on after {frames} frames ({words})")
+    with started(system, 10**6, stays=True) as (process, address):
+        follower = kds("contacts", address, system, "killed")
+        time.sleep(3)
+        process.kill()
+        code, words, frames, _ = ended(follower, "contacts", "killed")
+        check(code in (0, 1) and frames > 1, f"{system.name}: is killed after {frames} frames ({words})")
 
 
 FOLDER.mkdir(parents=True, exist_ok=True)
