@@ -1,6 +1,6 @@
-"""Lets kds follow LAMMPS or GROMACS while they run, on the loopback address, and compares with the frames that they write.
+"""Lets kds follow LAMMPS, GROMACS or a server while they run, on the loopback address, and compares with the frames they write.
 
-Usage: peers.py lammps|gromacs KDS PRINT_FRAMES DATA FOLDER. Exit code 77 (skipped) if the simulator is not installed.
+Usage: peers.py lammps|gromacs|server KDS PRINT_FRAMES DATA FOLDER. Exit code 77 (skipped) if the simulator is not installed.
 IMD sends float32 in angstrom. The frames of the simulator's own file, rounded to float32, must be the beads of kds bit for bit,
 and `run` and `contacts` over the same numbers from a file must find the same events and intervals.
 """
@@ -16,7 +16,7 @@ from pathlib import Path
 
 PEER, KDS, PRINT_FRAMES = sys.argv[1:4]
 DATA, FOLDER = (Path(path).resolve() for path in sys.argv[4:6])
-if not shutil.which({"lammps": "lmp", "gromacs": "gmx"}[PEER]):
+if not shutil.which({"lammps": "lmp", "gromacs": "gmx", "server": sys.executable}[PEER]):
     print(f"skipped: the program of {PEER} is not installed")
     sys.exit(77)
 try:
@@ -26,13 +26,14 @@ except ImportError as error:
     sys.exit(77)
 PAPER = Path(__file__).resolve().parents[2] / "experiments/paper"
 sys.path.insert(0, str(PAPER))
-from imd_server import free_port, running  # noqa: E402
+import imd_server  # noqa: E402
 from simulate import MDP, read_dump, run  # noqa: E402
 
 EXAMPLE = Path("/usr/share/lammps/examples/peptide/data.peptide")
 RESULTS = {"run": ("summary.json", "events.csv"), "contacts": ("contacts.json", "intervals.csv")}
 FOLLOWED = ["--structures", "wrapped,contacts"]
 SHAKE = "fix 2 all shake 0.000001 50 0 b 4 6 8 10 12 14 18 a 31\n"
+FILES = {"chain": "frames.bin", "cage": "md.trr"}
 FAILURES = []
 
 
@@ -45,7 +46,7 @@ def check(holds, message):
 class Chain:
     """Sixty beads that FENE springs join, in LAMMPS."""
 
-    name, steps, file, inputs = "chain", 2000, "frames.bin", ["--dt", "0.005"]
+    name, steps, inputs = "chain", 2000, ["--dt", "0.005"]
     choices = {"run": [*FOLLOWED, "--radius", "0.5", "--cutoff", "1.3"], "contacts": ["--cutoff", "3"]}
 
     def prepare(self):
@@ -85,7 +86,7 @@ class Peptide(Chain):
 class Cage:
     """The protein trp-cage (PDB entry 1L2Y) in vacuum, in GROMACS."""
 
-    name, steps, file = "cage", 1000, "md.trr"
+    name, steps = "cage", 1000
     inputs = ["--topology", str(FOLDER / "box.gro"), "--dt", "0.002"]
     choices = {"run": [*FOLLOWED, "--radius", "0.7", "--cutoff", "8"], "contacts": ["--cutoff", "8"]}
 
@@ -113,13 +114,27 @@ class Cage:
         return np.array(frames, "f4") * np.float32(10)
 
 
+class Server:
+    """A generated chain, which imd_server.py sends in version 3 and big-endian byte order."""
+
+    name, steps, inputs = "server", 300, ["--dt", "0.002"]
+    choices = {"run": [*FOLLOWED, "--radius", "1", "--cutoff", "5"], "contacts": ["--cutoff", "5"]}
+
+    def command(self, port, steps, stays):
+        return (sys.executable, imd_server.__file__, "--port", port, "--version", "3", "--big-endian", "--frames", steps)
+
+    def written(self):
+        return np.array([frame[0] for _, frame in zip(range(self.steps), imd_server.chain(100))], "f4")
+
+
 @contextlib.contextmanager
 def started(system, steps=None, stays=False):
     """Runs a simulation during a block, which gets its process and its address."""
-    port = free_port()
+    port = imd_server.free_port()
     command, environment = system.command(port, steps or system.steps, stays), dict(os.environ, OMP_NUM_THREADS="1")
-    with open(FOLDER / "peer.out", "w") as out, running(*command, cwd=FOLDER, stdout=out, stderr=out, env=environment) as peer:
-        yield peer, f"imd://127.0.0.1:{port}"
+    with open(FOLDER / "peer.out", "w") as out:
+        with imd_server.running(*command, cwd=FOLDER, stdout=out, stderr=out, env=environment) as process:
+            yield process, f"imd://127.0.0.1:{port}"
 
 
 def kds(command, source, system, out, *more):
@@ -133,6 +148,8 @@ def ended(process, command, out):
     """Returns the exit code of kds, its last words, the number of frames, and its events or intervals."""
     words = process.communicate(timeout=300)[1].strip()
     summary, table = RESULTS[command]
+    if not (FOLDER / out / summary).exists():
+        sys.exit(f"FAILED: kds {command} wrote nothing: {words}")
     frames = json.loads((FOLDER / out / summary).read_text())["input"]["frames"]
     return process.returncode, words, frames, (FOLDER / out / table).read_text()
 
@@ -140,14 +157,14 @@ def ended(process, command, out):
 def compare(system):
     with started(system) as (process, address):
         done = subprocess.run([PRINT_FRAMES, address], capture_output=True, timeout=300, check=False)
-        check(process.wait(60) == 0 and done.returncode == 0, f"{system.name}: frames are read to the end")
+        check(done.returncode == 0 and process.wait(60) == 0, f"{system.name}: frames are read to the end")
     beads = system.written()
     got = np.frombuffer(done.stdout).reshape(-1, 1 + beads[0].size)[:, 1:].reshape(-1, *beads[0].shape)
     check(got.shape == beads.shape and (got == beads).all(), f"{system.name}: {len(beads)} frames, beads bit for bit")
     for command in RESULTS:
         with started(system) as (process, address):
             code, words, frames, live = ended(kds(command, address, system, "live"), command, "live")
-            check(process.wait(60) == 0 and code == 0, f"{system.name}: {command} ends with the simulation ({words})")
+            check(code == 0 and process.wait(60) == 0, f"{system.name}: {command} ends with the simulation ({words})")
         beads = system.written()
         with open(FOLDER / "frames.xyz", "w") as file:  # enough digits to read back the same doubles
             for frame in beads.astype(float).tolist():
@@ -161,7 +178,8 @@ def leave(system):
     """kds leaves, and the simulation goes on. The simulation is killed, and kds keeps the results of the frames before."""
     with started(system, 10**6, stays=True) as (process, address):
         code, words, frames, _ = ended(kds("run", address, system, "left", "--until", "0.2"), "run", "left")
-        written, size = FOLDER / system.file, (FOLDER / system.file).stat().st_size
+        written = FOLDER / FILES[system.name]
+        size = written.stat().st_size
         time.sleep(2)
         check(code == 0 and written.stat().st_size > size, f"{system.name}: goes on after {frames} frames ({words})")
     with started(system, 10**6, stays=True) as (process, address):
@@ -173,8 +191,9 @@ def leave(system):
 
 
 FOLDER.mkdir(parents=True, exist_ok=True)
-for system in [Chain()] + [Peptide()] * EXAMPLE.exists() if PEER == "lammps" else [Cage()]:
+PEERS = {"lammps": [Chain] + [Peptide] * EXAMPLE.exists(), "gromacs": [Cage], "server": [Server]}
+for system in [peer() for peer in PEERS[PEER]]:
     compare(system)
-    if system.name != "peptide":
+    if system.name in FILES:
         leave(system)
 sys.exit(1 if FAILURES else 0)
