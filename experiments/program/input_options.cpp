@@ -276,13 +276,12 @@ Cell parse_cell(const std::string& text) {
     numbers.push_back(parse_real("--cell", part, {0, 1e9, true}));
   if (numbers.size() != 3 && numbers.size() != 6)
     throw InputError(
-        "--cell",
-        fmt::format("expected three lengths, or three lengths and three angles, found {}", in_quotes(text)));
+        "--cell", fmt::format("expected three lengths, or three lengths and three angles, found {}", text));
   numbers.resize(6, 90);
   const CellRead cell = read_cell_from_angles(Eigen::Map<const Eigen::Vector3d>(numbers.data()),
                                               Eigen::Map<const Eigen::Vector3d>(numbers.data() + 3));
   if (!cell.cell)
-    throw InputError("--cell", fmt::format("{}: {}", in_quotes(text),
+    throw InputError("--cell", fmt::format("{}: {}", text,
                                            cell.doubt.empty() ? "expected lengths from 1 on" : cell.doubt));
   return *cell.cell;
 }
