@@ -6,19 +6,20 @@
 // numbers in the byte order of the simulation's machine. The first packet, the handshake, has the version in
 // place of the length and in the machine's byte order, which tells that order.
 //
-// clang-format off
 // | type | length | numbers |
 // |---|---|---|
 // | 0 disconnect | any | |
 // | 1 energies | 1 | int32 step, nine floats |
 // | 2 coordinates | atoms | three floats an atom, in angstrom |
 // | 4 handshake | version | |
-// | 10 session info | 7 | a byte each: whether time, energies, cell, coordinates are sent, coordinates are wrapped, velocities, forces are sent |
+// | 10 session info | 7 | a byte each, nonzero for yes |
 // | 12 time | 1 | double length of a step, double time in picoseconds, int64 step |
 // | 13 cell | 1 | three vectors of three floats, in angstrom |
 // | 14 velocities | atoms | three floats an atom, in angstrom per picosecond |
 // | 15 forces | atoms | three floats an atom |
-// clang-format on
+//
+// The bytes of session info say whether time, energies, cells and coordinates are sent, whether coordinates
+// are wrapped into the cell, and whether velocities and forces are sent.
 //
 // Version 2 has the types 0 to 4; a frame is a packet of coordinates, in GROMACS after one of energies, whose
 // steps are one more than those of the coordinates. Version 3 sends session info after the

@@ -1,5 +1,6 @@
 // Fuzzes the reader of one format with libFuzzer: kds_fuzz_readers --format=NAME CORPUS... Whatever the bytes
-// of a file are, reading it must give valid frames, the same ones twice, or an InputError in one line.
+// of a file are, reading it must give valid frames, the same ones twice, or an InputError in one line. For
+// the format imd the bytes are those that a simulation sends.
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -13,9 +14,11 @@
 #include <vector>
 
 #include "motions/base/input_error.h"
+#include "motions/live/imd_protocol.h"
 #include "motions/readers/necklace_stream.h"
 #include "motions/readers/reader_registry.h"
 #include "motions/readers/topology.h"
+#include "tests/support/inputs/imd_maker.h"
 
 namespace {
 
@@ -73,6 +76,22 @@ void read_topology_of(const std::string& path) {
     require(place < topology.atom_count, "a bead is not one of the atoms");
 }
 
+// Reads what a simulation sends, which arrives in pieces. Counts the memory that frames take.
+void read_connection(std::string_view bytes, std::size_t piece) {
+  test::BytesInMemory source(bytes, piece);
+  ImdProtocol protocol("imd://fuzzed:1", source);
+  protocol.read_handshake();
+  const std::size_t atoms = protocol.read_atom_count();
+  protocol.ask_velocities();
+  std::size_t held = 0;
+  for (LiveFrame frame; protocol.next(frame); frame = {}) {
+    require(frame.positions.size() == 3 * atoms, "a frame has other atoms than frame 0");
+    held += (frame.positions.capacity() + frame.velocities.capacity()) * sizeof(float);
+    require(held <= 2 * source.bytes_read(), "frames take more memory than twice the bytes that came");
+  }
+  require(source.calls() <= bytes.size() + 2, "bytes are asked for after their end");
+}
+
 template <class Read>
 void expect_sound(const Read& read) {
   try {
@@ -96,6 +115,11 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  if (reader->name == "imd") {
+    const std::string_view sent(reinterpret_cast<const char*>(bytes), size);
+    expect_sound([&] { read_connection(sent, size % 2 == 0 ? 7 : size + 1); });
+    return 0;
+  }
   const std::string path = write_in_memory(bytes, size);
   const bool until_damage = size % 2 == 0;
   if (reader->open) expect_sound([&] { read_frames(path, until_damage); });

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "motions/frames/frame_selection.h"
 #include "tests/motions/test_files.h"
 
@@ -39,6 +41,21 @@ TEST(FrameRange, Select) {
   EXPECT_EQ(select("1:", {3, false}), (Frames{1, 2}));
   EXPECT_EQ(select("0:5:2", {5, false}), (Frames{0, 2, 4}));
   EXPECT_EQ(select("::18446744073709551615", {5, false}), (Frames{0}));
+}
+
+TEST(FrameRange, OpenFramesHaveNoEnd) {
+  const FramesHeld open{.open = true};
+  EXPECT_EQ(select("3:9:2", open), (Frames{3, 5, 7}));
+  std::vector<std::string> warnings;
+  for (const char* const range : {":", "7:", "::3", "18446744073709551614::18446744073709551615"}) {
+    const FrameRange parsed = parse_frame_range(range);
+    const FramesAsked asked = select_frames("f", parsed, open, false, warnings);
+    EXPECT_FALSE(asked.truncated || asked.at_rest);
+    const std::size_t last = asked[asked.count - 1];
+    EXPECT_GE(last, parsed.first);
+    EXPECT_LT(std::numeric_limits<std::size_t>::max() - last, parsed.stride + 1);
+  }
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST(FrameRange, TellsOfFramesBehindTheLastOneThatAStrideMeets) {

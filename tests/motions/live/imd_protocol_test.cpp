@@ -161,6 +161,18 @@ TEST(ImdProtocol, RefusesWhatNoSimulationSends) {
   expect_error(old.handshake() + ImdMaker::header(2, 50'000'000), "the connection has ended inside a packet");
 }
 
+// libFuzzer starts from these connections of three frames.
+TEST(ImdProtocol, ReadsTheCorpusOfTheFuzzer) {
+  int files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(test::data_file("../tests/fuzz/corpus/imd"))) {
+    const Stream stream = read_stream(test::read_bytes(file.path()), 100);
+    EXPECT_EQ(stream.error, "") << file.path();
+    EXPECT_EQ(stream.frames.size(), 3U) << file.path();
+    ++files;
+  }
+  EXPECT_GE(files, 4);
+}
+
 std::string mutated_stream(const ImdMaker& maker, std::mt19937& random) {
   const auto below = [&](std::size_t n) {
     return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);

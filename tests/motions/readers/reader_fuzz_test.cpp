@@ -338,6 +338,7 @@ TEST(FuzzCorpus, EachFormatHasValidFiles) {
   const std::filesystem::path corpus = test::data_file("../tests/fuzz/corpus");
   for (const std::string& format : reader_registry().names()) {
     ASSERT_TRUE(std::filesystem::is_directory(corpus / format)) << format;
+    if (format == "imd") continue;  // not files: imd_protocol_test.cpp reads these bytes
     int files = 0, recognised = 0;
     for (const auto& file : std::filesystem::directory_iterator(corpus / format)) {
       SCOPED_TRACE(file.path());
