@@ -78,12 +78,12 @@ class LiveRuns(unittest.TestCase):
     def test_a_cell_for_simulations_that_send_none(self):
         positions = wandering()
         options = dict(structures=["contacts"])
-        pushed = kds.KineticRun.pushed(positions.shape[1], 1.2, cell=[9, 10, 11, 80, 90, 90], **options)
+        pushed = kds.KineticRun.pushed(positions.shape[1], 1.2, cell=[7, 7.5, 8, 80, 90, 90], **options)
         for frame in positions:
             pushed.push(frame)
         pushed.finish()
         with Simulation(positions) as address:
-            found = kds.run(address, radius=1.2, cell=[9, 10, 11, 80, 90, 90], unwrap="beads", **options)
+            found = kds.run(address, radius=1.2, cell=[7, 7.5, 8, 80, 90, 90], unwrap="beads", **options)
         self.assertEqual(found.fingerprint, pushed.fingerprint)
         self.assertNotEqual(found.fingerprint, kds.run(positions, radius=1.2, **options).fingerprint)
         for cell, line in (([9, 10], "expected three lengths"), ([9, 10, 11, 90, 90, 200], "cell")):

@@ -35,7 +35,7 @@ const Trajectory& villin() {
   static const Trajectory trajectory = [] {
     ReadOptions options;
     options.topology = data_file("trajectories/villin_hp36_300K.pdb");
-    options.selection = parse_selection("--select", "ca");
+    options.selection = *Selection::parse("ca", "--select");
     options.frames = {0, 40, 1};
     options.time_step = 2;
     return read_trajectory(data_file("trajectories/villin_hp36_300K.dcd"), options);
