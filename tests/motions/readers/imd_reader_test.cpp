@@ -28,6 +28,7 @@ using testing::HasSubstr;
 using Word = std::optional<std::pair<int, int>>;
 
 constexpr std::pair go{3, 0}, disconnect{0, 0};
+constexpr const char* left = "disconnected before the end of the simulation";
 
 /// Everything that a stream gives.
 struct Read {
@@ -124,7 +125,8 @@ TEST(ImdReader, SaysNothingButGoRateAndDisconnect) {
   EXPECT_THAT(words, ElementsAre(go, std::pair(8, 5), disconnect, std::nullopt));
   EXPECT_THAT(
       read.warnings,
-      ElementsAre(HasSubstr("frame 1 is 7 steps after the frame before (step 107), expected 5 (5 frames)")));
+      ElementsAre(HasSubstr(left),
+                  HasSubstr("frame 1 is 7 steps after the frame before (step 107), expected 5 (5 frames)")));
   EXPECT_FALSE(read.truncated);
 }
 
@@ -183,7 +185,8 @@ TEST(ImdReader, KeepsTheFramesBeforeABreak) {
                 const Read read = read_all(simulation.address(), options);
                 EXPECT_THAT(numbers_of(read), ElementsAre(0, 1, 2));
                 EXPECT_TRUE(read.truncated);
-                EXPECT_THAT(read.warnings, ElementsAre(HasSubstr(why)));
+                ASSERT_FALSE(read.warnings.empty());
+                EXPECT_THAT(read.warnings.front(), HasSubstr(why));
               }),
               4);
   };
@@ -292,7 +295,7 @@ TEST(ImdReader, StopsWaitingOnRequestAndOnInterruption) {
     withdraw_live_end();
     EXPECT_EQ(read.frames.size(), 3U);
     EXPECT_FALSE(read.truncated);
-    EXPECT_THAT(read.warnings, ElementsAre());
+    EXPECT_THAT(read.warnings, ElementsAre(HasSubstr(left)));
     EXPECT_GT(read.state.seconds_waited, 0.1);
   }
   EXPECT_EQ(word, disconnect);

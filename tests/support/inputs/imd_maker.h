@@ -38,6 +38,9 @@ struct ImdMaker {
   static float velocity(std::size_t k, std::size_t atom, std::size_t axis) {
     return -0.1F * coordinate(k, atom, axis);
   }
+  [[nodiscard]] std::int64_t step_of(std::size_t k) const {
+    return 100 + steps_between * static_cast<std::int64_t>(k);
+  }
   static double time_of(std::size_t k) { return 0.125 + 0.02 * static_cast<double>(k); }
 
   template <class Number>
@@ -67,9 +70,9 @@ struct ImdMaker {
         for (std::size_t axis = 0; axis < 3; ++axis) bytes += number(of(k, i, axis));
     };
     if (version >= 3 && time)
-      bytes += header(12, 1) + number(0.002) + number(time_of(k)) +
-               number(std::int64_t{100} + steps_between * static_cast<std::int64_t>(k));
-    if (energies) bytes += header(1, 1) + std::string(40, 'e');
+      bytes += header(12, 1) + number(0.002) + number(time_of(k)) + number(step_of(k));
+    if (energies)
+      bytes += header(1, 1) + number(static_cast<std::int32_t>(step_of(k))) + std::string(36, 'e');
     if (version >= 3 && cell) {
       bytes += header(13, 1);
       for (const float part : {40.F, 0.F, 0.F, 5.F, 41.F, 0.F, 6.F, 7.F, 42.F}) bytes += number(part);
