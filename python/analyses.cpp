@@ -34,6 +34,7 @@
 #include "experiments/voids/follow_voids.h"
 #include "experiments/voids/voids_command.h"
 #include "motions/base/input_error.h"
+#include "motions/base/interruption.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
 #include "python/arrays.h"
@@ -55,12 +56,14 @@ using Warn = std::function<void(const std::string&)>;
 using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// Calls `find(progress, warn)`, which returns a Found, without the GIL. Returns the results as a dictionary.
+/// `reads_live` is that of Watch.
 template <class Find>
-py::dict run_analysis(const py::object& progress, const Find& find) {
+py::dict run_analysis(const py::object& progress, const Find& find, bool reads_live = false) {
   std::vector<std::string> warnings;
   std::string json, table;
   {
-    Watch watch(progress);
+    if (reads_live) withdraw_live_end();
+    Watch watch(progress, reads_live);
     const Found found =
         find(Progress([&](std::size_t done, std::size_t total) { watch.look(done, 0, total); }),
              Warn([&](const std::string& warning) { warnings.push_back(warning); }));
@@ -113,17 +116,20 @@ py::dict contacts(const Arguments& arguments, const py::object& progress) {
   std::vector<std::string> names;
   std::string columns;
   std::unique_ptr<Intervals> intervals;
-  py::dict result = run_analysis(progress, [&](const Progress& look, const Warn& warn) {
-    ContactsFound contacts = find_contacts(task, look, warn);
-    Found found;
-    add_contacts(*contacts.report, contacts.figures, found.json);
-    found.table = contacts_text(*contacts.report, contacts.figures);
-    names = contacts.report->elements.names;
-    contacts.figures.pairs.clear();
-    columns = contacts_csv(*contacts.report, contacts.figures);
-    intervals = std::make_unique<Intervals>(*contacts.report);
-    return found;
-  });
+  py::dict result = run_analysis(
+      progress,
+      [&](const Progress& look, const Warn& warn) {
+        ContactsFound contacts = find_contacts(task, look, warn);
+        Found found;
+        add_contacts(*contacts.report, contacts.figures, found.json);
+        found.table = contacts_text(*contacts.report, contacts.figures);
+        names = contacts.report->elements.names;
+        contacts.figures.pairs.clear();
+        columns = contacts_csv(*contacts.report, contacts.figures);
+        intervals = std::make_unique<Intervals>(*contacts.report);
+        return found;
+      },
+      is_live(task));
   result["names"] = names;
   result["columns"] = columns;
   intervals->move_to(result);
@@ -132,14 +138,17 @@ py::dict contacts(const Arguments& arguments, const py::object& progress) {
 
 py::dict compare(const Arguments& arguments, const py::object& progress) {
   const CompareOptions options = parse_compare_options(arguments);
-  return run_analysis(progress, [&](const Progress& look, const Warn& warn) {
-    const Comparison comparison = compare_runs(options, look, warn);
-    Found found;
-    found.json["pooled"] = pooled_columns().json(pooled_rows(comparison));
-    found.json["rows"] = compare_columns(comparison).json(comparison.rows);
-    found.table = compare_table(comparison);
-    return found;
-  });
+  return run_analysis(
+      progress,
+      [&](const Progress& look, const Warn& warn) {
+        const Comparison comparison = compare_runs(options, look, warn);
+        Found found;
+        found.json["pooled"] = pooled_columns().json(pooled_rows(comparison));
+        found.json["rows"] = compare_columns(comparison).json(comparison.rows);
+        found.table = compare_table(comparison);
+        return found;
+      },
+      is_live(options));
 }
 
 py::dict update(const Arguments& arguments, const py::object& progress) {

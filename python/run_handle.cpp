@@ -92,7 +92,8 @@ class RunHandle::Reserved {
 /// Reserves the run for one thread and lets Python run other threads meanwhile.
 class RunHandle::Use {
  public:
-  explicit Use(RunHandle& run, const py::object& progress = py::none()) : reserved_(run), watch_(progress) {}
+  explicit Use(RunHandle& run, const py::object& progress = py::none())
+      : reserved_(run), watch_(progress, run.scene().is_live()) {}
   [[nodiscard]] Watch& watch() { return watch_; }
 
  private:
@@ -105,6 +106,7 @@ RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more,
     : memory_(std::move(memory)), options_(parse_run_options(arguments)), only_(more.only) {
   check_view(options_);
   const auto warn = [this](const std::string& warning) { warnings_.push_back(warning); };
+  withdraw_live_end();
   scene_ = std::make_unique<Scene>(load_scene(options_, warn));
   open();
 }

@@ -2,8 +2,6 @@
 
 #include <ctime>
 
-#include "motions/scene/live_frames.h"
-
 namespace kds::python {
 
 namespace py = pybind11;
@@ -25,9 +23,10 @@ auto Watch::Clock::now() -> time_point {
   return time_point(std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec));
 }
 
-Watch::Watch(const py::object& progress)
+Watch::Watch(const py::object& progress, bool reads_live)
     : progress_(progress.is_none() ? py::handle() : py::handle(progress)),
       main_thread_(is_main_thread()),
+      reads_live_(reads_live),
       next_(Clock::now() + between_looks),
       check_([this] { look(); }) {}
 
@@ -56,8 +55,9 @@ void Watch::call() {
   try {
     const py::gil_scoped_acquire gil;
     if (PyErr_CheckSignals() != 0) {
-      if (!LiveFrames::any_open() || live_end_requested()) throw py::error_already_set();
-      PyErr_Clear();  // the first Ctrl-C ends the input and keeps what was seen
+      if (!reads_live_ || live_end_requested() || PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0)
+        throw py::error_already_set();
+      PyErr_Clear();
       request_live_end();
     }
     if (progress_) progress_(done_, within_, total_);

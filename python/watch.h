@@ -19,7 +19,10 @@ class Watch {
   /// `progress` is None or a function. It is called with the number of units done, the completed share of the
   /// present unit, and the number of all units. Python handles signals in its main thread only, so Ctrl-C
   /// ends computations of that thread only.
-  explicit Watch(const pybind11::object& progress = pybind11::none());
+  ///
+  /// If the computation `reads_live` frames, the first Ctrl-C ends these frames (request_live_end), and the
+  /// computation goes on to its results.
+  explicit Watch(const pybind11::object& progress = pybind11::none(), bool reads_live = false);
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
@@ -46,7 +49,7 @@ class Watch {
   void call();
 
   pybind11::handle progress_;  // owned by the caller; null for none
-  bool main_thread_;
+  bool main_thread_, reads_live_;
   Clock::time_point next_;
   std::size_t done_ = 0, total_ = 0;
   double within_ = 0;

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -56,17 +55,21 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   return read_instance(*instance);
 }
 
-SignalsEndLiveInput::SignalsEndLiveInput(const InputOptions& options) : is_set_(is_live(options)) {
-  if (!is_set_) return;
+SignalsEndLiveInput::SignalsEndLiveInput(const InputOptions& options) {
+  if (!is_live(options)) return;
+  withdraw_live_end();
   struct sigaction action {};
   action.sa_handler = [](int) { request_live_end(); };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : {SIGINT, SIGTERM}) static_cast<void>(::sigaction(signal, &action, nullptr));
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    if (::sigaction(signal, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) continue;
+    if (::sigaction(signal, &action, nullptr) == 0) before_.emplace_back(signal, before);
+  }
 }
 
 SignalsEndLiveInput::~SignalsEndLiveInput() {
-  if (!is_set_) return;
-  for (const int signal : {SIGINT, SIGTERM}) static_cast<void>(std::signal(signal, SIG_DFL));
+  for (const auto& [signal, before] : before_) static_cast<void>(::sigaction(signal, &before, nullptr));
 }
 
 void require_ascending_times(const InputOptions& input, const Scene& scene) {
@@ -300,7 +303,6 @@ LiveInput open_live(const InputOptions& input, const std::function<void(const st
     throw InputError("--radius", fmt::format("auto is half of the longest bond of all frames, and {} is a "
                                              "running simulation; expected a length, element or file:PATH",
                                              file_names(input)));
-  withdraw_live_end();
   InputOptions opened = input;
   opened.reading.velocities = input.velocities == VelocitySource::file;
   if (!opened.reading.on_wait)

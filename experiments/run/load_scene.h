@@ -1,12 +1,14 @@
 #pragma once
 // Builds the scene of a run from its inputs.
 
+#include <csignal>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "experiments/program/input_options.h"
@@ -26,7 +28,7 @@ namespace kds {
 void refuse_instance(const InputOptions& options, std::string_view what = "no frames");
 
 /// While it lives, Ctrl-C and the signal TERM end a live input of these options, so that the results of the
-/// frames seen are written. A second signal ends the program.
+/// frames seen are written. A second signal ends the program. Signals that are ignored stay so.
 class SignalsEndLiveInput {
  public:
   explicit SignalsEndLiveInput(const InputOptions& options);
@@ -35,7 +37,7 @@ class SignalsEndLiveInput {
   SignalsEndLiveInput& operator=(const SignalsEndLiveInput&) = delete;
 
  private:
-  bool is_set_;
+  std::vector<std::pair<int, struct sigaction>> before_;  // the signals set, and what they did before
 };
 
 /// Opens all inputs and then the obstacle, to be read frame by frame. Reads every `stride`-th frame of the

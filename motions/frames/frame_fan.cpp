@@ -25,22 +25,28 @@ class FrameFan::Branch final : public FrameSource {
     return fan_.source_.necklaces();
   }
   [[nodiscard]] bool next(FrameRead& frame) override {
-    std::unique_lock lock(fan_.mutex_);
-    fan_.changed_.wait(lock, [&] { return !waiting_.empty() || fan_.stopped_; });
-    if (waiting_.empty()) {
-      ended_ = true;
-      return false;
+    std::shared_ptr<const FrameRead> next;
+    {
+      std::unique_lock lock(fan_.mutex_);
+      fan_.changed_.wait(lock, [&] { return !waiting_.empty() || fan_.stopped_; });
+      if (waiting_.empty()) {
+        ended_ = true;
+        return false;
+      }
+      next = std::move(waiting_.front());
+      waiting_.pop_front();
+      fan_.changed_.notify_all();
     }
-    frame = *waiting_.front();
-    waiting_.pop_front();
-    fan_.changed_.notify_all();
+    frame = *next;
     return true;
   }
   void seek(std::size_t /*k*/) override { throw std::logic_error("a branch of a fan gives each frame once"); }
   [[nodiscard]] bool is_open() const override { return !ended_; }
 
   // These functions need the fan's mutex.
-  [[nodiscard]] bool is_full() const { return waiting_.size() >= most_waiting; }
+  [[nodiscard]] bool lacks_room(std::size_t number) const {
+    return number % stride_ == 0 && waiting_.size() >= most_waiting;
+  }
   void offer(std::size_t number, const std::shared_ptr<const FrameRead>& frame) {
     if (number % stride_ == 0) waiting_.push_back(frame);
   }
@@ -61,8 +67,16 @@ void FrameFan::pump() try {
     const auto frame = std::make_shared<FrameRead>();
     if (!source_.next(*frame)) break;
     std::unique_lock lock(mutex_);
-    const auto may_go_on = [&] { return stopped_ || std::ranges::none_of(branches_, &Branch::is_full); };
-    while (!changed_.wait_for(lock, std::chrono::milliseconds(100), may_go_on)) InterruptionCheck::ask();
+    const auto may_go_on = [&] {
+      return stopped_ || std::ranges::none_of(branches_, [number](const Branch* branch) {
+               return branch->lacks_room(number);
+             });
+    };
+    while (!changed_.wait_for(lock, std::chrono::milliseconds(100), may_go_on)) {
+      lock.unlock();
+      InterruptionCheck::ask();
+      lock.lock();
+    }
     if (stopped_ || branches_.empty()) break;
     for (Branch* const branch : branches_) branch->offer(number, frame);
     changed_.notify_all();

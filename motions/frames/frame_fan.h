@@ -1,6 +1,6 @@
 #pragma once
 // The frames of one source for several runs, each on a thread of its own. A running simulation sends each
-// frame once, so runs with different strides read it at the same time.
+// frame once, so runs with different strides read the frames at the same time.
 
 #include <condition_variable>
 #include <cstddef>
@@ -30,7 +30,8 @@ class FrameFan {
   /// Reads the source to its end, on this thread, and hands each frame to the branches. Waits while a branch
   /// has not read its frames. If the source throws, the branches end and the exception is passed on.
   void pump();
-  /// Ends all branches after the frames that wait for them. May be called on any thread.
+  /// Ends all branches after the frames that wait for them, and `pump` when its source gives the next frame.
+  /// May be called on any thread.
   void stop();
 
  private:

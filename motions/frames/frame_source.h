@@ -77,7 +77,10 @@ class FrameSource {
   [[nodiscard]] virtual bool is_truncated() const { return false; }
   /// Returns lines about the frames. The lines are complete once all frames have been read.
   [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
-  /// Returns who waits for whom, or nothing unless the frames come from a simulation that runs.
+  /// Ends the reading of a running simulation before its end. Other sources do nothing.
+  virtual void close() {}
+  /// Returns how long the run and the simulation waited for each other, or nothing unless the frames come
+  /// from a running simulation.
   [[nodiscard]] virtual std::optional<LiveState> live() const { return std::nullopt; }
 };
 

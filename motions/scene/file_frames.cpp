@@ -30,8 +30,8 @@ FileFrames::FileFrames(std::vector<NecklaceStream> files, bool last_is_obstacle)
   for (std::size_t f = 0; live_ && f < files_.size(); ++f)
     if (f != *live_ && !at_rest_[f])
       throw InputError(
-          fmt::format("{}: moves beside {}, which a running simulation sends; expected inputs of "
-                      "one frame beside it",
+          fmt::format("{}: has several frames; beside the running simulation {} expected inputs "
+                      "of one frame",
                       files_[f].heads().front().file, files_[*live_].heads().front().file));
 }
 
@@ -48,7 +48,6 @@ bool FileFrames::next(FrameRead& frame) {
     }
   }
   if (!more || truncated) {
-    ended_ = true;
     all_ = read_;
     for (std::size_t& frames : all_) frames = std::min(frames, next_);
     if (more)
@@ -124,7 +123,6 @@ FrameStamp FileFrames::stamp() {
 
 void FileFrames::seek(std::size_t k) {
   if (k < next_) {
-    ended_ = false;
     for (NecklaceStream& file : files_) file.rewind();
     std::fill(read_.begin(), read_.end(), 0);
     next_ = times_differ_ = 0;

@@ -24,9 +24,12 @@ class FileFrames final : public FrameSource {
   /// InputError unless all files have the same number of frames, or one (at rest). The last frame of a
   /// truncated or damaged file is the last one of all files.
   [[nodiscard]] bool next(FrameRead& frame) override;
-  /// Reads the files again from the start to go back. Throws InputError if one is live.
+  /// Reads the files again from the start to go back.
   void seek(std::size_t k) override;
-  [[nodiscard]] bool is_open() const override { return live_ && !ended_; }
+  [[nodiscard]] bool is_open() const override { return live_.has_value(); }
+  void close() override {
+    if (live_) files_[*live_].close();
+  }
   [[nodiscard]] std::optional<LiveState> live() const override {
     return live_ ? files_[*live_].live() : std::nullopt;
   }
@@ -58,7 +61,6 @@ class FileFrames final : public FrameSource {
 
   std::vector<NecklaceStream> files_;
   std::optional<std::size_t> live_ = {};  ///< index of the file that is live, if one is
-  bool ended_ = false;                    ///< all frames of the live file have been read
   std::vector<NecklaceBeads> necklaces_;
   std::vector<bool> at_rest_;                     ///< whether a file has only one frame, one per file
   std::vector<FrameRead> present_;                ///< the present frame of each file

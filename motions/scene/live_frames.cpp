@@ -15,7 +15,6 @@ LiveFrames::LiveFrames(std::unique_ptr<FrameSource> source) : source_(std::move(
   if (!source_->next(first_))
     throw InputError(fmt::format("{}: has ended before its first frame", necklaces().front().file));
   periodic_ = first_.cell.has_value();
-  ++open_;
 }
 
 FrameSurvey LiveFrames::survey() const {
@@ -31,32 +30,39 @@ bool LiveFrames::next(FrameRead& frame) {
   if (ended_) return false;
   const FloatingPointScope to_nearest;
   try {
-    bool has_frame = true;
-    if (next_ == 0)
+    if (next_ == 0) {
       frame = std::move(first_);
-    else
-      has_frame = source_->next(frame);
-    if (!has_frame) {
-      end();
+    } else if (!source_->next(frame)) {
+      ended_ = true;
       return false;
     }
-    cells_.add(frame);
-    if (next_ > 0 && last_.picoseconds && !(frame.stamp.picoseconds > last_.picoseconds))
-      throw InputError(fmt::format(
-          "{}: frame {} has {}, which is not later than the {} ps of the frame before",
-          necklaces().front().file, frame.stamp.number,
-          frame.stamp.picoseconds ? fmt::format("the time {} ps", *frame.stamp.picoseconds) : "no time",
-          *last_.picoseconds));
-    last_ = frame.stamp;
-    if (periodic_ && !cells_.is_periodic({})) throw InputError(cells_.why_not());
+    check(frame);
   } catch (const InputError& error) {
+    close();
     if (next_ < 2) throw;
-    end();
+    ended_ = true;
     fault_ = error.what();
     return false;
   }
   ++next_;
   return true;
+}
+
+void LiveFrames::check(const FrameRead& frame) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: frame {}: {}", necklaces().front().file, frame.stamp.number, what));
+  };
+  if (last_.picoseconds && !(frame.stamp.picoseconds > last_.picoseconds))
+    refuse(fmt::format(
+        "{}, expected one later than the {} ps of the frame before",
+        frame.stamp.picoseconds ? fmt::format("has the time {} ps", *frame.stamp.picoseconds) : "has no time",
+        *last_.picoseconds));
+  last_ = frame.stamp;
+  if (!periodic_) return;
+  cells_.add(frame);
+  if (!cells_.is_periodic({}))
+    refuse(frame.cell ? "other vectors of its cell are periodic than before"
+                      : "has no cell, unlike the frames before");
 }
 
 void LiveFrames::seek(std::size_t k) {

@@ -81,12 +81,13 @@ class Scene {
   /// of frames that are pushed or live. There, Hermite curves with differences are known one frame later, or
   /// when the frames end.
   [[nodiscard]] std::size_t known_steps() const { return steps_->known_steps(); }
-  /// Returns whether the motion of step k is known. A live scene waits for its frames.
+  /// Returns whether the motion of step k is known. A live scene waits for its frames, and drops those before
+  /// step k: ask in ascending order.
   [[nodiscard]] bool has_step(std::size_t k) const { return steps_->has_step(k); }
   /// Returns whether frames come from a simulation that runs, each only once. The numbers of frames and steps
   /// then grow, and frames before the latest step are gone, except for the stamp of frame 0.
   [[nodiscard]] bool is_live() const { return live_ != nullptr; }
-  /// Returns who waits for whom, or nothing if the scene is not live.
+  /// Returns how long the run and the simulation waited for each other, or nothing if the scene is not live.
   [[nodiscard]] std::optional<LiveState> live() const {
     return live_ == nullptr ? std::nullopt : live_->live();
   }

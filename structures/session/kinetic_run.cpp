@@ -197,11 +197,12 @@ bool KineticRun::can_enter() const { return !finished_ && (motion_ || scene_.has
 /// have changed it.
 void KineticRun::load() {
   if (motion_) return check_radii();
-  if (std::exchange(loaded_, true)) return;
+  if (loaded_) return;
   const FloatingPointScope to_nearest;
   const std::size_t step = simulator().step();
   scene_motion_->load(step);
   simulator().set_frames(scene_.stamp(step), scene_.stamp(step + 1));
+  loaded_ = true;
 }
 
 void KineticRun::build() {
@@ -330,6 +331,12 @@ void KineticRun::audit_now() {
 }
 
 void KineticRun::go_to(double time) {
+  if (scene_.is_live()) {  // runs each step as its frames come
+    while (static_cast<double>(simulator().step() + 1) <= time && run_step()) {
+    }
+    if (time > static_cast<double>(simulator().step()))
+      static_cast<void>(scene_.has_step(simulator().step()));
+  }
   const std::size_t present = simulator().step();
   const auto last = static_cast<double>(!motion_ ? scene_.known_steps() : finished_ ? present : present + 1);
   if (!(time >= 0 && time <= last))
@@ -341,7 +348,7 @@ void KineticRun::go_to(double time) {
   const bool is_past = step < present || (step == present && within_ &&
                                           ExactTime::compare(there, simulator().now().exact()) < 0);
   if (!is_past) return go_on_to(step, u);
-  if (own_scene_ || !built_)
+  if (own_scene_ || scene_.is_live() || !built_)
     throw std::invalid_argument(
         fmt::format("time {}: the run is past it, and its steps are not kept; expected a later one", time));
   make();

@@ -156,7 +156,8 @@ class KineticRun {
   /// run then stands at u = 0 of the step that begins there. Returns false if nothing more happens until the
   /// end of the known steps or, over a motion that the user sets, until the end of the step.
   bool next_event();
-  /// Runs forward to a time. A run over a scene can also go back: it is then repeated from the start,
+  /// Runs forward to a time, over a live scene as its frames come. A run over a scene that is not live can
+  /// also go back: it is then repeated from the start,
   /// including edits, without notifying listeners until that time; listeners are notified again of all later
   /// events. Edits after that time are forgotten. Only edits made by the functions below are repeated, not
   /// changes made directly on structures or simulator. Throws std::invalid_argument if the time is

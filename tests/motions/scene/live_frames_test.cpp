@@ -5,12 +5,10 @@
 
 #include <limits>
 #include <memory>
-#include <thread>
 #include <vector>
 
 #include "motions/base/input_error.h"
 #include "motions/curves/bezier_motion.h"
-#include "motions/frames/frame_fan.h"
 #include "motions/scene/scene.h"
 #include "tests/support/inputs/frames_one_by_one.h"
 #include "tests/support/inputs/random.h"
@@ -96,22 +94,19 @@ TEST(LiveFrames, EndBeforeAFrameThatCannotBeUsed) {
   };
   std::vector<Case> cases(4);
   cases[0].frames[3].positions(1, 2) = std::numeric_limits<double>::quiet_NaN();
-  cases[0].line = "not finite";
+  cases[0].line = "is not finite";
   cases[1].frames[3].stamp.picoseconds = 4;
-  cases[1].line = "not later than the 4 ps";
+  cases[1].line = "has the time 4 ps, expected one later than the 4 ps";
   cases[2].frames[3].cell.reset();
-  cases[2].line = "no cell";
+  cases[2].line = "has no cell";
   cases[3].frames[3].stamp.picoseconds.reset();
-  cases[3].line = "no time";
+  cases[3].line = "has no time";
   for (const Case& one : cases) {
     const auto frames = live(one.frames);
-    EXPECT_TRUE(LiveFrames::any_open());
     EXPECT_EQ(all_frames(*frames).size(), 3U) << one.line;
     EXPECT_TRUE(frames->is_truncated());
     EXPECT_FALSE(frames->is_open());
-    EXPECT_FALSE(LiveFrames::any_open());
-    EXPECT_THAT(frames->fault(), HasSubstr(one.line));
-    EXPECT_THAT(frames->warnings(), ::testing::ElementsAre(HasSubstr("ends with the frame before")));
+    EXPECT_THAT(frames->warnings(), ::testing::ElementsAre(HasSubstr("sim: frame 3: " + one.line)));
   }
   auto without_cells = cases[2].frames;
   const auto frames = live(without_cells);
@@ -143,48 +138,6 @@ TEST(LiveFrames, AreReadOnce) {
   EXPECT_FALSE(broken.is_truncated());
   EXPECT_FALSE(broken.has_step(2));
   EXPECT_TRUE(broken.is_truncated());
-}
-
-TEST(FrameFan, GivesEachBranchItsFrames) {
-  const auto source = live(some_frames(50));
-  FrameFan fan(*source);
-  const std::vector<std::size_t> strides{1, 1, 3, 7};
-  std::vector<std::vector<FrameRead>> seen(strides.size());
-  std::vector<std::thread> threads;
-  for (std::size_t i = 0; i < strides.size(); ++i)
-    threads.emplace_back([&seen, i, branch = fan.branch(strides[i])] { seen[i] = all_frames(*branch); });
-  fan.pump();
-  for (std::thread& thread : threads) thread.join();
-  const std::vector<FrameRead> all = some_frames(50);
-  for (std::size_t i = 0; i < strides.size(); ++i) {
-    ASSERT_EQ(seen[i].size(), (50 + strides[i] - 1) / strides[i]);
-    for (std::size_t k = 0; k < seen[i].size(); ++k) {
-      EXPECT_EQ(seen[i][k].stamp.number, k * strides[i]);
-      EXPECT_EQ(seen[i][k].positions, all[k * strides[i]].positions);
-    }
-  }
-}
-
-TEST(FrameFan, EndsWithItsSourceItsBranchesOrAtOnce) {
-  std::vector<FrameRead> frames = some_frames(20);
-  frames[1].positions(0, 0) = std::numeric_limits<double>::infinity();  // is thrown before the second frame
-  const auto faulty = live(frames);
-  FrameFan broken(*faulty);
-  const auto branch = broken.branch(1);
-  EXPECT_THROW(broken.pump(), InputError);
-  EXPECT_EQ(all_frames(*branch).size(), 1U);
-  EXPECT_FALSE(branch->is_open());
-
-  const auto whole = live(some_frames(20));
-  FrameFan left(*whole);
-  left.branch(1).reset();
-  left.pump();  // returns although nobody reads
-  const auto again = live(some_frames(20));
-  FrameFan stopped(*again);
-  const auto never_read = stopped.branch(1);
-  std::thread other([&] { stopped.stop(); });
-  stopped.pump();
-  other.join();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "motions/scene/live_frames.h"
@@ -44,7 +45,18 @@ TEST(LiveRun, HasTheEventsOfTheSameFrames) {
     EXPECT_EQ(steps, 11U);
     EXPECT_EQ(run.simulator().fingerprint(), expected.simulator().fingerprint());
     EXPECT_GT(run.simulator().fingerprint(), 0U);
-    EXPECT_THROW(run.go_to(3.5), InputError);  // the frames have passed
+    EXPECT_THROW(run.go_to(3.5), std::invalid_argument);  // the frames have passed
+    EXPECT_FALSE(run.run_step());
+
+    const Scene driven = live_scene();
+    KineticRun to_times(driven, options);
+    for (const double time : {0.5, 3.0, 7.25, 11.0}) {
+      to_times.go_to(time);
+      EXPECT_LE(driven.frame_count(), static_cast<std::size_t>(time) + 4);
+    }
+    EXPECT_THROW(to_times.go_to(11.5), std::invalid_argument);
+    to_times.finish();
+    EXPECT_EQ(to_times.simulator().fingerprint(), expected.simulator().fingerprint());
 
     const Scene again = live_scene();
     ParallelRun parallel(again, options, {.threads = 4});
