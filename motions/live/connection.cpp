@@ -65,7 +65,13 @@ int connect_once(const addrinfo& to, Time deadline, int& error) {
   if (socket < 0) return -1;
   error = connect(socket, to.ai_addr, to.ai_addrlen) == 0 ? 0 : errno;
   if (error == EINPROGRESS || error == EINTR) {
-    const Waited waited = wait_until_ready(socket, POLLOUT, deadline, nullptr);
+    Waited waited = Waited::ended;
+    try {
+      waited = wait_until_ready(socket, POLLOUT, deadline, nullptr);
+    } catch (...) {  // of InterruptionCheck
+      close(socket);
+      throw;
+    }
     socklen_t size = sizeof error;
     if (waited != Waited::ready)
       error = ETIMEDOUT;

@@ -80,6 +80,13 @@ FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& o
   return opened;
 }
 
+// Returns the error of a running simulation that gave fewer than two frames.
+InputError too_few_frames(const FramesOpened& opened, const std::string& what) {
+  return InputError(fmt::format("{}; expected two frames at least",
+                                opened.frames->is_cut() ? opened.frames->closing_notes().front()
+                                                        : fmt::format("{}: {}", opened.file, what)));
+}
+
 void check_finite(const std::string& file, const FrameRead& frame) {
   const auto check = [&](const Eigen::Matrix3Xd& numbers, std::string_view prefix,
                          std::string_view expected) {
@@ -180,7 +187,8 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
   const FloatingPointScope to_nearest;
   FrameRead first;
   if (!opened_.frames->next(first))
-    throw InputError(fmt::format("{}: the file holds no frame", opened_.file));
+    throw opened_.live ? too_few_frames(opened_, "no frame asked for has come")
+                       : InputError(fmt::format("{}: the file holds no frame", opened_.file));
   check_finite(opened_.file, first);
   const auto guides = static_cast<Eigen::Index>(opened_.bonds.guides_before.size());
   for (std::size_t n = 0; n < heads_.size(); ++n)
@@ -457,12 +465,8 @@ bool NecklaceStream::next(FrameRead& frame) {
   }
   ended_ = true;
   if (!is_live() || holds_two()) return false;
-  const std::vector<std::string> notes = opened_.frames->closing_notes();
-  throw InputError(fmt::format("{}; expected two frames at least",
-                               opened_.frames->is_cut()
-                                   ? notes.front()
-                                   : fmt::format("{}: the frames have ended after frame {}", opened_.file,
-                                                 heads_.front().frame_number(0))));
+  throw too_few_frames(opened_,
+                       fmt::format("the frames have ended after frame {}", heads_.front().frame_number(0)));
 }
 
 bool NecklaceStream::read(FrameRead& frame) {

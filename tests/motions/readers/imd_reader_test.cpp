@@ -176,6 +176,15 @@ TEST(ImdReader, EndsAfterUntil) {
   EXPECT_EQ(frames_until(recent, {.frames = {3, {}, 2}, .time_step = 1, .until = 6}), 2U);
 }
 
+TEST(ImdReader, SaysThatNoFrameAskedForHasCome) {
+  const auto expect_refused = [](const ReadOptions& options, std::string_view why) {
+    ImdSimulation simulation(ImdMaker{.version = 3}, true);
+    test::expect_refused([&] { read_all(simulation.address(), options); }, {simulation.address(), why});
+  };
+  expect_refused({.until = 0.1}, ": no frame asked for has come; expected two frames at least");
+  expect_refused({.frames = {5}, .patience = 0.3}, ": frame 4: the simulation is silent or too slow");
+}
+
 TEST(ImdReader, KeepsTheFramesBeforeABreak) {
   const ImdMaker maker{.version = 3, .frames = 3};
   const ReadOptions options{.patience = 0.3};
