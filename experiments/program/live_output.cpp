@@ -97,7 +97,9 @@ int end_of_live_run(ProgressBar& bar, const LiveRun& live, bool is_cut) {
              fmt::format("waited {:.1f} s for the simulation in {:.1f} s; the simulation may have waited "
                          "{:.1f} s for kds{}",
                          live.state.seconds_waited, live.seconds, live.state.seconds_full,
-                         live.state.seconds_full > 0 ? ", or dropped frames meanwhile, as LAMMPS does" : ""));
+                         live.state.seconds_full > 0
+                             ? ", or dropped frames meanwhile, as LAMMPS does; times by --dt are then wrong"
+                             : ""));
   return is_cut ? 1 : 0;
 }
 

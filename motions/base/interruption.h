@@ -39,8 +39,8 @@ inline constinit std::atomic<bool> requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 }  // namespace live_end
 
-/// Asks all readers of running simulations in this process to end, so that the results of what was seen are
-/// written. May be called by a signal handler.
+/// Asks all readers of running simulations in this process to end. The results of the frames read so far are
+/// then written. May be called by a signal handler.
 inline void request_live_end() noexcept { live_end::requested = true; }
 /// Withdraws the request, before the next simulation is followed.
 inline void withdraw_live_end() noexcept { live_end::requested = false; }

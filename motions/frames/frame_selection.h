@@ -85,7 +85,7 @@ class FrameWalk {
 /// DamagedFrame if a frame asked for, or any frame of an open range, is damaged; `until_damage` reads the
 /// frames before it instead, with a warning. Warns of frames after the last one that a stride meets. If a
 /// file has one frame, the frame is taken whatever the range is, and the necklace is at rest. If the frames
-/// are open, returns all of the range; frames without an end have a count that no walk reaches.
+/// are open, returns all of the range; a range without an end goes up to the largest std::size_t.
 [[nodiscard]] FramesAsked select_frames(const std::string& file, const FrameRange& range,
                                         const FramesHeld& held, bool until_damage,
                                         std::vector<std::string>& warnings);

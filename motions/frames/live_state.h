@@ -1,5 +1,5 @@
 #pragma once
-// What is known of a running simulation whose frames are followed.
+// Counts and waiting times of a running simulation.
 
 #include <cstddef>
 
@@ -9,7 +9,8 @@ struct LiveState {
   std::size_t received = 0;   ///< frames that have arrived whole
   std::size_t taken = 0;      ///< frames that were handed out or passed over
   double seconds_waited = 0;  ///< kds waited for frames
-  double seconds_full = 0;    ///< no frame had room any more, so the simulation may have waited for kds
+  /// The memory for received frames was full, so that the simulation may have waited for kds.
+  double seconds_full = 0;
 };
 
 }  // namespace kds

@@ -35,7 +35,7 @@ Time seconds_from_now(double seconds) {
 
 enum class Waited { ready, too_long, ended };
 
-// Waits until the socket is ready, the deadline has come, or somebody asks for the end.
+// Waits until the socket is ready, the deadline has come, or an end is requested.
 Waited wait_until_ready(int socket, short events, Time deadline, const std::atomic<bool>* stopped) {
   for (;;) {
     pollfd waiting{socket, events, 0};
@@ -49,7 +49,7 @@ Waited wait_until_ready(int socket, short events, Time deadline, const std::atom
   }
 }
 
-// Whether a socket is connected to itself. The system may give it the very port that it looks for.
+// Whether a socket is connected to itself. The system may choose the port it connects to as its own.
 bool is_own_peer(int socket) {
   sockaddr_storage own{}, peer{};
   socklen_t own_size = sizeof own, peer_size = sizeof peer;
@@ -97,7 +97,8 @@ int connect_to(const LiveAddress& address, double patience, const std::function<
     int error = 0;
     bool is_refused = false;
     for (const addrinfo* host = hosts.get(); host != nullptr; host = host->ai_next) {
-      if (const int socket = connect_once(*host, deadline, error); socket >= 0) return socket;
+      const Time soon = std::min(deadline, seconds_from_now(2));  // another address may answer
+      if (const int socket = connect_once(*host, soon, error); socket >= 0) return socket;
       is_refused = is_refused || error == ECONNREFUSED;
     }
     if (!is_refused && error != ETIMEDOUT)
@@ -133,8 +134,8 @@ void Connection::restart_patience() { deadline_ = seconds_from_now(patience_); }
 
 std::size_t Connection::read(std::span<char> to) {
   for (;;) {
-    // A peer that sends without a pause must not keep the deadline from being seen.
-    if (stopped_ || live_end_requested()) throw BrokenConnection("the reading was ended");
+    // Checks the deadline also while bytes arrive without a pause.
+    if (stopped_ || live_end_requested()) throw BrokenConnection("ended on request");
     if (Clock::now() < deadline_) {
       const ssize_t got = recv(socket_, to.data(), to.size(), 0);
       if (got >= 0) return static_cast<std::size_t>(got);

@@ -13,9 +13,9 @@
 
 namespace kds {
 
-/// One thread reads. Another one may call `stop`. Waiting threads ask InterruptionCheck and
-/// `live_end_requested` twenty times a second. The socket is closed in child processes, and no signal is
-/// raised if the peer has gone.
+/// One thread calls `read`; any thread may call `stop`. Waiting threads ask InterruptionCheck and
+/// `live_end_requested` twenty times a second. The socket is closed on exec, and no signal is raised if the
+/// simulation has gone.
 class Connection final : public ByteSource {
  public:
   /// Connects within `patience` seconds. A simulation that does not listen yet is tried again ten times a

@@ -172,11 +172,11 @@ bool ImdProtocol::begin() {
 }
 
 void ImdProtocol::read_before_coordinates(Header& header) {
-  bool is_read = true;
+  bool has_header = true;
   for (const ImdPacket packet : frame_heads) {
     if (!sends(packet)) continue;
-    is_read ? check_type(header, packet) : void(header = expect_header(packet));
-    is_read = false;
+    if (!std::exchange(has_header, false)) header = expect_header(packet);
+    check_type(header, packet);
     check_length(header, 1);
     if (packet == ImdPacket::time) {
       static_cast<void>(read_number<double>());  // the length of a step
@@ -191,7 +191,7 @@ void ImdProtocol::read_before_coordinates(Header& header) {
       for (float& number : partial_.cell.emplace()) number = read_number<float>();
     }
   }
-  if (!is_read) header = expect_header(ImdPacket::coordinates);
+  if (!has_header) header = expect_header(ImdPacket::coordinates);
 }
 
 void ImdProtocol::check_atoms(const Header& header) {

@@ -25,11 +25,11 @@
 // steps are one more than those of the coordinates. Version 3 sends session info after the
 // handshake, and then for each frame the packets it announced, in the order 12, 1, 13, 2, 14, 15. A frame is
 // complete after the last of these. All other types (go 3, kill 5, forces of the user 6, pause 7, rate 8,
-// error 9, resume 11, wait 16) are words of the receiving side; a peer that sends them is refused.
+// error 9, resume 11, wait 16) are packets that only kds may send; a simulation that sends them is refused.
 //
-// A simulation ends by a disconnect or by closing the connection, both between frames. LAMMPS and GROMACS say
-// no disconnect: at the end of the run, and also if they are killed, their system closes the connection. So a
-// simulation that is killed between two frames cannot be told from one that has ended.
+// A simulation ends by a disconnect or by closing the connection, both between frames. LAMMPS and GROMACS
+// send no disconnect: the operating system closes the connection when they end or are killed. So a simulation
+// that is killed between two frames cannot be told from one that has ended.
 
 #include <array>
 #include <bit>
@@ -59,7 +59,7 @@ enum class ImdPacket : std::int32_t {
   forces = 15,
 };
 
-/// Returns the header of a packet, which is all that the words of the receiving side consist of.
+/// Returns the header of a packet. A packet that kds sends has nothing else.
 [[nodiscard]] std::array<char, 8> imd_header(ImdPacket type, std::int32_t length);
 
 /// A frame as a simulation sends it.
@@ -71,10 +71,10 @@ struct LiveFrame {
   std::vector<float> velocities;             ///< likewise; empty if they are not sent or not asked for
 };
 
-/// Reads the packets of one connection. The memory taken is at most twice the bytes that have arrived, and
-/// 100 kB; a length that a peer claims is not believed. Throws InputError in one line, which names the
-/// simulation and the frame, if a packet is not what the protocol allows, or if the source is broken or ends
-/// inside a frame. Do not read on after that.
+/// Reads the packets of one connection. Memory is taken for at most twice the bytes that have arrived, 100
+/// kB, and the chosen atoms: a length that a simulation claims is not believed. Throws InputError in one
+/// line, which names the simulation and the frame, if a packet is not what the protocol allows, or if the
+/// source is broken or ends inside a frame. Do not read on after that.
 class ImdProtocol {
  public:
   /// `name` is for messages. The source must outlive this object.
@@ -82,7 +82,7 @@ class ImdProtocol {
 
   /// Reads the handshake and, in version 3, the session info. Throws InputError if the version is another.
   void read_handshake();
-  [[nodiscard]] std::int32_t version() const { return version_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] bool sends_cells() const { return sends(ImdPacket::cell); }
 
   /// Reads up to the coordinates of frame 0 and returns the number of atoms, which all frames must have.

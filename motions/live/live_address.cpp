@@ -22,7 +22,7 @@ LiveAddress parse_live_address(const std::filesystem::path& path) {
   const std::string text = path.string();
   const auto refuse = [&](std::string_view what) {
     return InputError(
-        fmt::format("{}: {}; expected imd://HOST:PORT, such as imd://localhost:8888", text, what));
+        fmt::format("{}: {}; expected {}, such as imd://localhost:8888", text, what, live_example));
   };
   if (!is_live_address(path)) throw refuse("is not the address of a simulation");
   const std::string rest = text.substr(live_scheme.size());

@@ -1,5 +1,7 @@
 #include "motions/live/live_receiver.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -21,10 +23,10 @@ LiveReceiver::LiveReceiver(const LiveAddress& address, double patience, std::opt
                            const std::function<void()>& on_wait)
     : connection_(std::make_unique<Connection>(address, patience, on_wait)),
       protocol_(address.text, *connection_) {
-  protocol_.read_handshake();
-  connection_->send(imd_header(ImdPacket::go, 0));
-  if (rate) connection_->send(imd_header(ImdPacket::rate, static_cast<std::int32_t>(*rate)));
   try {
+    protocol_.read_handshake();
+    connection_->send(imd_header(ImdPacket::go, 0));
+    if (rate) connection_->send(imd_header(ImdPacket::rate, static_cast<std::int32_t>(*rate)));
     atom_count_ = protocol_.read_atom_count();
   } catch (...) {
     connection_->part(imd_header(ImdPacket::disconnect, 0));
@@ -46,8 +48,10 @@ void LiveReceiver::receive() {
       block_.push_back(std::move(frame));
       changed_.notify_all();
     }
-  } catch (const std::exception& error) {
+  } catch (const InputError& error) {
     why = error.what();
+  } catch (const std::exception& error) {
+    why = fmt::format("{}: {}", protocol_.name(), error.what());
   }
   const std::lock_guard lock(mutex_);
   left_ = closing_ || live_end_requested();

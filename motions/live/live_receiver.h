@@ -18,8 +18,8 @@
 
 namespace kds {
 
-/// Connects, receives, and says goodbye. The simulation is told nothing but "go", "rate" if that is asked
-/// for, and "disconnect". If kds is slower than the simulation, received frames wait in a block of 4 frames
+/// Connects to a simulation, receives its frames, and disconnects. Sends only "go", "rate" if it is set, and
+/// "disconnect". If kds is slower than the simulation, received frames wait in a block of 4 frames
 /// or 16 MB, whichever is more. When the block is full, the system's buffers fill up too, and then the
 /// simulation waits in its next send.
 class LiveReceiver {

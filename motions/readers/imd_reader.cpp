@@ -21,13 +21,14 @@ class StepSpacing {
   }
 
   void look_at(std::size_t frame, std::int64_t step) {
-    const auto between = static_cast<std::int64_t>(static_cast<std::uint64_t>(step) -
-                                                   static_cast<std::uint64_t>(std::exchange(last_, step)));
-    if (frame == 0) return;
+    const std::optional<std::int64_t> before = std::exchange(last_, step);
+    if (!before) return;
+    const auto between =
+        static_cast<std::int64_t>(static_cast<std::uint64_t>(step) - static_cast<std::uint64_t>(*before));
     if (!expected_) expected_ = between;
     if (between == *expected_ || unlike_++ > 0) return;
-    first_unlike_ = fmt::format("frame {} is {} steps after the frame before (step {}), expected {}", frame,
-                                between, step, *expected_);
+    first_unlike_ =
+        fmt::format("frame {} is {} steps after the frame before, expected {}", frame, between, *expected_);
   }
 
   // Returns a line, or an empty text if all frames are equally far apart.
@@ -36,7 +37,7 @@ class StepSpacing {
   }
 
  private:
-  std::int64_t last_ = 0;
+  std::optional<std::int64_t> last_;  // step of the frame before
   std::optional<std::int64_t> expected_;
   std::size_t unlike_ = 0;  // frames
   std::string first_unlike_;
@@ -50,6 +51,7 @@ class ImdFrames final : public AtomFrames {
         until_(options.until),
         time_step_(options.time_step),
         cell_(options.cell),
+        bounded_(options.until || options.frames.last),
         steps_(options.rate) {
     if (cell_ && receiver_.sends_cells())
       throw InputError("--cell", name_ + " sends its cell; expected no other");
@@ -96,11 +98,15 @@ class ImdFrames final : public AtomFrames {
   [[nodiscard]] std::vector<std::string> closing_notes() const override {
     std::vector<std::string> notes;
     if (is_cut()) notes.push_back(cut_);
-    if (receiver_.left())
+    if (receiver_.left() && frames_ > 0)
       notes.push_back(
-          name_ +
-          ": disconnected before the end of the simulation, which may now wait for another client "
-          "(LAMMPS does without nowait on, GROMACS with -imdwait)");
+          fmt::format("{}: kds disconnected after frame {}; a simulation that goes on may wait for "
+                      "another client (LAMMPS unless nowait on, GROMACS with -imdwait)",
+                      name_, frames_ - 1));
+    if (falls_short_)
+      notes.push_back(
+          fmt::format("{}: the simulation has ended after frame {}, before the last frame asked for", name_,
+                      frames_ - 1));
     if (const std::string note = steps_.note(); !note.empty()) notes.push_back(name_ + ": " + note);
     return notes;
   }
@@ -110,6 +116,7 @@ class ImdFrames final : public AtomFrames {
   bool advance() {
     if (!receiver_.take(frame_)) {
       cut_ = receiver_.broken();
+      falls_short_ = bounded_ && cut_.empty() && frames_ > 0 && !receiver_.left();
       return false;
     }
     if (frame_.step) steps_.look_at(frames_, *frame_.step);
@@ -120,8 +127,9 @@ class ImdFrames final : public AtomFrames {
   // Whether frame k is known to lie after --until. The frame taken last is k or one before it.
   [[nodiscard]] bool is_late(std::size_t k) const {
     if (!until_ || (frames_ == 0 && !time_step_)) return false;
-    if (time_step_ || !frame_.picoseconds) return static_cast<double>(k) * time_step_.value_or(1) > *until_;
-    return frames_ == k + 1 ? *frame_.picoseconds > *until_ : *frame_.picoseconds >= *until_;
+    const double last = *until_ * (1 + 1e-9);  // multiples of a step of time are rounded
+    if (time_step_ || !frame_.picoseconds) return static_cast<double>(k) * time_step_.value_or(1) > last;
+    return frames_ == k + 1 ? *frame_.picoseconds > last : *frame_.picoseconds >= *until_;
   }
 
   void copy(const std::vector<float>& numbers, std::span<const std::size_t> atoms,
@@ -137,6 +145,8 @@ class ImdFrames final : public AtomFrames {
   LiveReceiver receiver_;
   std::optional<double> until_, time_step_;
   std::optional<Cell> cell_;  // that of --cell
+  bool bounded_;              // a last frame is asked for
+  bool falls_short_ = false;  // the simulation has ended before it
   StepSpacing steps_;
   bool chosen_ = false;     // frames have only the chosen atoms
   LiveFrame frame_;         // the frame taken last

@@ -380,7 +380,7 @@ void NecklaceStream::note_cell(const FrameRead& frame) {
 }
 
 void NecklaceStream::note_time(const FrameStamp& stamp) {
-  if (!stamp.picoseconds) return;
+  if (!stamp.picoseconds || is_live()) return;  // LiveFrames ends before such a time
   if (last_timed_ && *stamp.picoseconds <= *last_timed_->picoseconds && times_disordered_++ == 0)
     first_disordered_ = fmt::format(
         "{}: frame {} has the time {} ps, which is not later than the {} ps of frame {}", opened_.file,

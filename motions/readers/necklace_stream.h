@@ -43,7 +43,7 @@ class NecklaceStream {
   /// Starts again at the first frame. Possible for a running simulation only until its second frame is read.
   void rewind();
   /// Returns whether a running simulation makes the frames. Then `next` waits for them. It throws InputError
-  /// if fewer than two frames come. After these, whatever breaks the frames off ends them: `next` returns
+  /// if fewer than two frames come. Once two frames have come, any fault ends the frames: `next` returns
   /// false, `warnings` says why, and `is_truncated` is true.
   [[nodiscard]] bool is_live() const { return opened_.live; }
   /// Disconnects from the running simulation, if there is one. `next` does so after the last frame.

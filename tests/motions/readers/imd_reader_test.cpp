@@ -28,7 +28,7 @@ using testing::HasSubstr;
 using Word = std::optional<std::pair<int, int>>;
 
 constexpr std::pair go{3, 0}, disconnect{0, 0};
-constexpr const char* left = "disconnected before the end of the simulation";
+constexpr const char* left = "kds disconnected after frame";
 
 /// Everything that a stream gives.
 struct Read {
@@ -123,10 +123,9 @@ TEST(ImdReader, SaysNothingButGoRateAndDisconnect) {
   simulation.join();
   EXPECT_THAT(numbers_of(read), ElementsAre(1, 3, 5));
   EXPECT_THAT(words, ElementsAre(go, std::pair(8, 5), disconnect, std::nullopt));
-  EXPECT_THAT(
-      read.warnings,
-      ElementsAre(HasSubstr(left),
-                  HasSubstr("frame 1 is 7 steps after the frame before (step 107), expected 5 (5 frames)")));
+  EXPECT_THAT(read.warnings,
+              ElementsAre(HasSubstr(left),
+                          HasSubstr("frame 1 is 7 steps after the frame before, expected 5 (5 frames)")));
   EXPECT_FALSE(read.truncated);
 }
 
@@ -158,9 +157,8 @@ TEST(ImdReader, SaysThatStepsWereSkipped) {
     static_cast<void>(peer.next_word());
   });
   const Read read = read_all(simulation.address());
-  EXPECT_THAT(
-      read.warnings,
-      ElementsAre(HasSubstr("frame 3 is 30 steps after the frame before (step 150), expected 10 (1 frame)")));
+  EXPECT_THAT(read.warnings,
+              ElementsAre(HasSubstr("frame 3 is 30 steps after the frame before, expected 10 (1 frame)")));
 }
 
 TEST(ImdReader, EndsAfterUntil) {
@@ -171,9 +169,21 @@ TEST(ImdReader, EndsAfterUntil) {
   const ImdMaker old{.frames = 9}, recent{.version = 3, .frames = 9};
   EXPECT_EQ(frames_until(old, {.until = 2}), 3U);
   EXPECT_EQ(frames_until(old, {.time_step = 0.5, .until = 2}), 5U);
+  EXPECT_EQ(frames_until(old, {.time_step = 0.1, .until = 0.3}), 4U);  // 3 * 0.1 > 0.3 in doubles
   EXPECT_EQ(frames_until(recent, {.until = ImdMaker::time_of(3)}), 4U);
   EXPECT_EQ(frames_until(recent, {.until = ImdMaker::time_of(3) - 0.001}), 3U);
   EXPECT_EQ(frames_until(recent, {.frames = {3, {}, 2}, .time_step = 1, .until = 6}), 2U);
+}
+
+TEST(ImdReader, SaysThatTheSimulationEndedTooEarly) {
+  for (const ReadOptions& options : {ReadOptions{.frames = {0, 100}}, ReadOptions{.until = 50}}) {
+    ImdSimulation simulation(ImdMaker{.version = 3});
+    const Read read = read_all(simulation.address(), options);
+    EXPECT_EQ(read.frames.size(), 4U);
+    EXPECT_THAT(
+        read.warnings,
+        ElementsAre(HasSubstr("the simulation has ended after frame 3, before the last frame asked")));
+  }
 }
 
 TEST(ImdReader, SaysThatNoFrameAskedForHasCome) {
