@@ -145,13 +145,14 @@ def kds(command, source, system, out, *more):
 
 
 def ended(process, command, out):
-    """Returns the exit code of kds, its last words, the number of frames, and its events or intervals."""
-    words = process.communicate(timeout=300)[1].strip()
+    """Returns the exit code of kds, its last words, the number of frames, and its table and fingerprint."""
+    words = process.communicate(timeout=300)[1].strip().replace("\n", "; ")
     summary, table = RESULTS[command]
     if not (FOLDER / out / summary).exists():
         sys.exit(f"FAILED: kds {command} wrote nothing: {words}")
-    frames = json.loads((FOLDER / out / summary).read_text())["input"]["frames"]
-    return process.returncode, words, frames, (FOLDER / out / table).read_text()
+    found = json.loads((FOLDER / out / summary).read_text())
+    rows = (FOLDER / out / table).read_text() + found.get("fingerprint", "")
+    return process.returncode, words, found["input"]["frames"], rows
 
 
 def compare(system):
@@ -176,15 +177,22 @@ def compare(system):
 
 def leave(system):
     """kds leaves, and the simulation goes on. The simulation is killed, and kds keeps the results of the frames before."""
+    written = FOLDER / FILES[system.name]
+
+    def grows(size):
+        for _ in range(600):
+            if written.exists() and written.stat().st_size > size:
+                return True
+            time.sleep(0.1)
+        return False
+
     with started(system, 10**6, stays=True) as (process, address):
         code, words, frames, _ = ended(kds("run", address, system, "left", "--until", "0.2"), "run", "left")
-        written = FOLDER / FILES[system.name]
-        size = written.stat().st_size
-        time.sleep(2)
-        check(code == 0 and written.stat().st_size > size, f"{system.name}: goes on after {frames} frames ({words})")
-    with started(system, 10**6, stays=True) as (process, address):
+        check(code == 0 and grows(written.stat().st_size), f"{system.name}: goes on after {frames} frames ({words})")
+    written.unlink()
+    with started(system, 10**6) as (process, address):
         follower = kds("contacts", address, system, "killed")
-        time.sleep(3)
+        check(grows(10**5), f"{system.name}: begins when kds comes")
         process.kill()
         code, words, frames, _ = ended(follower, "contacts", "killed")
         check(code in (0, 1) and frames > 1, f"{system.name}: is killed after {frames} frames ({words})")
