@@ -9,6 +9,7 @@ import contextlib
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -198,6 +199,7 @@ def leave(system):
         check(code in (0, 1) and frames > 1, f"{system.name}: is killed after {frames} frames ({words})")
 
 
+signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # ends the simulation too
 FOLDER.mkdir(parents=True, exist_ok=True)
 PEERS = {"lammps": [Chain] + [Peptide] * EXAMPLE.exists(), "gromacs": [Cage], "server": [Server]}
 for system in [peer() for peer in PEERS[PEER]]:
