@@ -99,7 +99,7 @@ const OptionList<CompareOptions>& compare_options() {
 CompareOptions parse_compare_options(const Arguments& arguments) {
   CompareOptions options;
   const ParsedArguments parsed =
-      read_arguments(with_inputs(kCompareCommand, true), compare_options(), arguments, options);
+      read_arguments(with_inputs(kCompareCommand, true, true), compare_options(), arguments, options);
   take_inputs(parsed, kCompareCommand.name, options);
   options.takes_live = true;
   refuse_if_live(options, parsed.has("--rounds"), "--rounds",

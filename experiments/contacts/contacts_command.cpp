@@ -154,7 +154,8 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
                            "FILE (default: none)")})
           .with(&O::live, live_output_options());
   O options;
-  const ParsedArguments parsed = read_arguments(with_inputs(kContactsCommand), list, arguments, options);
+  const ParsedArguments parsed =
+      read_arguments(with_inputs(kContactsCommand, false, true), list, arguments, options);
   take_inputs(parsed, kContactsCommand.name, options.task);
   options.task.takes_live = true;
   const ContactsTask& task = options.task;

@@ -123,12 +123,15 @@ void check_exists(const std::filesystem::path& path) {
   require_regular_file(path);
 }
 
-CommandSpec with_inputs(CommandSpec command, bool or_instance) {
+CommandSpec with_inputs(CommandSpec command, bool or_instance, bool or_live) {
   static const std::string trajectories =
       fmt::format("a necklace: {} (also .gz)", reader_registry().endings());
-  static const std::string inputs = trajectories + ", or an instance file";
+  static const std::string with_instances = trajectories + ", or an instance file";
+  static const std::string live = fmt::format(", or {}, a running simulation", live_example);
+  static const std::string with_live = trajectories + live, with_both = with_instances + live;
   command.operand = kInputOperand;
-  command.operand_help = or_instance ? inputs : trajectories;
+  command.operand_help =
+      or_live ? (or_instance ? with_both : with_live) : (or_instance ? with_instances : trajectories);
   return command;
 }
 
@@ -243,7 +246,7 @@ std::string inputs_help() {
       "kds info complex.cif --chain A,B --select '//*/CA'"};
   std::vector<OptionSpec> specs = input_options().specs();
   for (OptionSpec& spec : specs) spec.of_inputs = false;
-  return help_text(with_inputs(command, true), specs);
+  return help_text(with_inputs(command, true, true), specs);
 }
 
 const Option<InputOptions>& obstacle_option() {

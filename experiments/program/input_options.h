@@ -55,8 +55,8 @@ struct InputOptions {
                     "--select"_arg));
 inline constexpr std::string_view kInputOperand = "INPUT...";
 /// Adds the operand INPUT... to a command. Its help lists the formats of the reader registry, and instance
-/// files if the command takes them.
-[[nodiscard]] CommandSpec with_inputs(CommandSpec command, bool or_instance = false);
+/// files and running simulations if the command takes them.
+[[nodiscard]] CommandSpec with_inputs(CommandSpec command, bool or_instance = false, bool or_live = false);
 
 /// Takes the inputs from the operands of `command` (such as `kds run`) after its options have been read.
 /// Throws InputError if there are no inputs, or if the number of --chain lists does not fit the number of

@@ -231,7 +231,7 @@ const OptionList<RunOptions>& run_options() {
 RunOptions parse_run_options(const Arguments& arguments) {
   RunOptions options;
   const ParsedArguments parsed =
-      read_arguments(with_inputs(kRunCommand, true), run_options(), arguments, options);
+      read_arguments(with_inputs(kRunCommand, true, true), run_options(), arguments, options);
   take_inputs(parsed, kRunCommand.name, options);
   options.takes_live = true;
   options.distances.check();
