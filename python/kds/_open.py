@@ -1,6 +1,7 @@
 """Inputs that are named once and used by several functions."""
 
 from . import _analyses, _stepping
+from ._options import OF_THE_INPUT, check_names, takes
 from ._run import Run
 
 
@@ -31,6 +32,7 @@ class Opened:
         return f"<kds input {self.source}>"
 
 
+@takes("run", only=OF_THE_INPUT)
 def open(source, **options):
     """Names an input and its options, such as ``topology``, ``select``, ``dt`` and ``radius``, for several functions.
 
@@ -42,4 +44,5 @@ def open(source, **options):
 
     Nothing is read before a method is called. Each method opens a running simulation anew.
     """
+    check_names(open, options)
     return Opened(source, options)

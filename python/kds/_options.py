@@ -15,8 +15,8 @@ InputError = _kds.InputError
 INPUT = ("start", "stop", "step", "radius", "units", "necklaces", "times", "velocities", "groups")
 # Options of the program that say how files are read.
 OF_FILES = ("topology", "select", "chain", "obstacle", "dt", "until_damage", "unwrap", "no_periodic")
-OF_THE_INPUT = (*INPUT, *OF_FILES)
 OF_LIVE = ("until", "patience", "cell", "rate")  # of running simulations
+OF_THE_INPUT = (*INPUT, *OF_FILES, *OF_LIVE)
 # Options of the program that are no arguments, and why.
 _NO_ARGUMENTS = {
     **dict.fromkeys(("out", "replace", "every", "continue", "paper", "json", "quiet", "view", "dump", "events", "log", "data", "o", "beads"),
@@ -140,9 +140,9 @@ def cutoff_text(cutoff, most=1):
     return ":".join(_text(number("cutoff", length, expected)) for length in lengths)
 
 
-def takes(command, without=()):
+def takes(command, without=(), only=None):
     """Decorates a function that takes ``**options``: gives it the arguments and the help of a command of the program,
-    which is the only list of its options. The function itself refuses the arguments `without`."""
+    which is the only list of its options. The function itself refuses the arguments `without`. `only`: takes no others."""
 
     def decorate(function):
         helps, defaults = {}, {}
@@ -154,7 +154,8 @@ def takes(command, without=()):
             inputs.append("only")
         own = [one for one in inspect.signature(function).parameters.values() if one.kind is not one.VAR_KEYWORD]
         hidden = {*without, *(one.name for one in own), *_NO_ARGUMENTS} - ({"rounds"} if command != "run" else set())
-        names = [name for name in dict.fromkeys([*inputs, *helps]) if name not in hidden and name.isidentifier()]
+        names = [name for name in dict.fromkeys([*inputs, *helps]) if name not in hidden and name.isidentifier()
+                 and (only is None or name in only)]
         function.__signature__ = inspect.Signature(own + [
             inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=defaults.get(name)) for name in names])
         lines = [line for name in names if name not in inputs

@@ -4,7 +4,7 @@ import numpy as np
 
 from . import _kds
 from ._inputs import check_unit_name, frame_of, is_frames, refuse_others
-from ._options import OF_LIVE, OF_THE_INPUT, InputError, check_names, number, numbers, plain, takes, warn, whole, wholes
+from ._options import OF_THE_INPUT, InputError, check_names, number, numbers, plain, takes, warn, whole, wholes
 from ._run import more_options, open_run, run_arguments
 from ._structure import Clock, Structure
 
@@ -25,7 +25,7 @@ def _cell(name, cell):
     return found.tolist()
 
 
-_NOT_PUSHED = [name for name in (*OF_THE_INPUT, *OF_LIVE) if name not in ("radius", "necklaces")]
+_NOT_PUSHED = [name for name in OF_THE_INPUT if name not in ("radius", "necklaces")]
 
 
 class KineticRun:
