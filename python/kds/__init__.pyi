@@ -63,7 +63,7 @@ class _Settings(TypedDict, total=False):
     threads: Optional[int]
     work: Optional[int]
 
-class _Analysis(_Source, _Settings, total=False):
+class _Analysis(_Source, _Settings, _Live, total=False):
     velocities: Union[str, ArrayLike, None]
     obstacle: Optional[Path]
     cutoff: Optional[float]
@@ -71,7 +71,7 @@ class _Analysis(_Source, _Settings, total=False):
     groups: Optional[Tuple[Any, Any]]
     only: Optional[Mapping[str, Iterable[int]]]
 
-class _Run(_Frames, _Live, _Analysis): ...
+class _Run(_Frames, _Analysis): ...
 
 class _Open(_Input, _Live, total=False):
     velocities: Union[str, ArrayLike, None]
