@@ -351,8 +351,7 @@ std::unique_ptr<ContactsReport> follow_contacts(
     const LiveHooks<ContactsReport>& hooks) {
   if (scene.frame_count() < 2)
     throw InputError(fmt::format("{}: has one frame, expected two or more", file_names(task)));
-  // The frames of a live scene are still to come. Times that do not ascend end such a run.
-  if (!scene.is_live()) require_ascending_times(task, scene);
+  require_ascending_times(task, scene);
   constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
   const auto strides =
       strides_that_fit(task.strides, scene.is_live() ? unlimited : scene.frame_count(), task);
