@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <compare>
 #include <exception>
 #include <filesystem>
@@ -478,7 +477,7 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
   first.takes_live = true;
   warn_of_threads(options.threads, warn);
   LiveInput live = open_live(first, warn);
-  const auto start = std::chrono::steady_clock::now();
+  const LiveClock clock(live.frames->live());
   FrameFan fan(*live.frames);
   std::vector<OneRun> runs;
   for (const FrameMotion motion : options.motions)
@@ -529,8 +528,7 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
   Comparison comparison;
   comparison.inputs.push_back(described(first, *runs.front().scene, InputNames(options), 0));
   comparison.inputs.front().truncated = live.frames->is_truncated();
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  comparison.live = {true, seconds.count(), live.frames->live().value_or(LiveState{})};
+  comparison.live = clock.run(true, live.frames->live());
   for (std::size_t i = 0; i < runs.size(); i += 2) {
     if (!runs[i].scene || !runs[i + 1].scene) {
       warn(fmt::format("{} {}: sees fewer than two frames and is left out", "--strides"_arg, runs[i].stride));

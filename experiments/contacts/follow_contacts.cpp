@@ -224,7 +224,7 @@ void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report
     return copy;
   };
   if (hooks.describe && scene.is_live())
-    hooks.describe([&] { return live.state(steps, report.intervals.size(), "ended", run.contacts_now()); });
+    hooks.describe([&] { return live.state(steps, report.intervals.size(), "ends", run.contacts_now()); });
   run.run(
       [&](std::size_t frame) {
         steps = frame;
@@ -345,10 +345,9 @@ void follow_again(const ContactsTask& task, const Scene& scene, const ContactsRe
   follow_rules(task, scene, report, radii, groups, sink, inner_sink, at_frame);
 }
 
-std::unique_ptr<ContactsReport> follow_contacts(
-    const ContactsTask& task, const Scene& scene,
-    const std::function<void(std::size_t, std::size_t)>& progress,
-    const LiveHooks<ContactsReport>& hooks) {
+std::unique_ptr<ContactsReport> follow_contacts(const ContactsTask& task, const Scene& scene,
+                                                const std::function<void(std::size_t, std::size_t)>& progress,
+                                                const LiveHooks<ContactsReport>& hooks) {
   if (scene.frame_count() < 2)
     throw InputError(fmt::format("{}: has one frame, expected two or more", file_names(task)));
   require_ascending_times(task, scene);

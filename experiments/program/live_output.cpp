@@ -103,9 +103,12 @@ int end_of_live_run(ProgressBar& bar, const LiveRun& live, bool is_cut) {
   return is_cut ? 1 : 0;
 }
 
-LiveRun LiveProgress::run(bool is_complete) const {
+LiveRun LiveClock::run(bool is_complete, const std::optional<LiveState>& now) const {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-  return {is_complete, seconds.count(), scene_.live().value_or(LiveState{})};
+  LiveState state = now.value_or(LiveState{});
+  state.seconds_waited -= before_.seconds_waited;
+  state.seconds_full -= before_.seconds_full;
+  return {is_complete, seconds.count(), state};
 }
 
 std::string LiveProgress::state(std::size_t frame, std::uint64_t count, std::string_view counted,
@@ -115,8 +118,8 @@ std::string LiveProgress::state(std::size_t frame, std::uint64_t count, std::str
   const double length = timed ? *now.picoseconds - *first.picoseconds : static_cast<double>(frame);
   std::string text = timed ? fmt::format("{:.6g} ps, ", *now.picoseconds) : "";
   if (length > 0)
-    text +=
-        fmt::format("{:.3g} {}/{}, ", static_cast<double>(count) / length, counted, timed ? "ps" : "step");
+    text += fmt::format("{} {}/{}, ", short_decimal(static_cast<double>(count) / length), counted,
+                        timed ? "ps" : "step");
   if (contacts) text += fmt::format("{} contacts now, ", with_thousands(*contacts));
   const LiveState live = scene_.live().value_or(LiveState{});
   return text + (live.received > live.taken ? kds::counted(live.received - live.taken, "frame") + " behind"

@@ -60,8 +60,7 @@ struct LiveHooks {
 class ResultsSoFar {
  public:
   /// `every` is the value of --every. The bar must outlive this object.
-  ResultsSoFar(ProgressBar& bar, std::optional<double> every)
-      : bar_(bar), every_(every.value_or(60)), next_(Clock::now() + every_) {}
+  ResultsSoFar(ProgressBar& bar, std::optional<double> every) : bar_(bar), every_(every.value_or(60)) {}
 
   /// Returns hooks that show the run on the bar and, if results are `wanted`, pass reports to `write`.
   /// `write` returns the reason if the results cannot replace the earlier ones. The first such reason is
@@ -73,7 +72,8 @@ class ResultsSoFar {
     if (wanted)
       hooks.at_frame = [this, write = std::move(write)](const std::function<Report()>& make) {
         const Clock::time_point start = Clock::now();
-        if (start < next_) return;
+        if (!next_) next_ = start + every_;
+        if (start < *next_) return;
         if (const auto reason = write(make()); reason && !std::exchange(is_warned_, true))
           print_warning(bar_, *reason + "; the run goes on, and tries again later");
         const Clock::time_point end = Clock::now();
@@ -88,7 +88,7 @@ class ResultsSoFar {
 
   ProgressBar& bar_;
   Seconds every_;
-  std::chrono::time_point<Clock, Seconds> next_;
+  std::optional<std::chrono::time_point<Clock, Seconds>> next_;  // none before the first frame
   bool is_warned_ = false;
 };
 
@@ -105,12 +105,23 @@ void add_live(Json& json, const LiveRun& live);
 /// broke.
 [[nodiscard]] int end_of_live_run(ProgressBar& bar, const LiveRun& live, bool is_cut);
 
+/// Measures a run from now on: waits for the connection and the first frames do not count.
+class LiveClock {
+ public:
+  explicit LiveClock(const std::optional<LiveState>& now) : before_(now.value_or(LiveState{})) {}
+  [[nodiscard]] LiveRun run(bool is_complete, const std::optional<LiveState>& now) const;
+
+ private:
+  LiveState before_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 /// Follows a live scene from its first step on.
 class LiveProgress {
  public:
-  explicit LiveProgress(const Scene& scene) : scene_(scene) {}
+  explicit LiveProgress(const Scene& scene) : scene_(scene), clock_(scene.live()) {}
 
-  [[nodiscard]] LiveRun run(bool is_complete) const;
+  [[nodiscard]] LiveRun run(bool is_complete) const { return clock_.run(is_complete, scene_.live()); }
   /// Returns "2.468 ps, 312 events/ps, 41 contacts now, 3 frames behind" for a frame just reached. `counted`
   /// names what `count` counts. Frames without times are counted by frames.
   [[nodiscard]] std::string state(std::size_t frame, std::uint64_t count, std::string_view counted,
@@ -118,7 +129,7 @@ class LiveProgress {
 
  private:
   const Scene& scene_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  LiveClock clock_;
 };
 
 }  // namespace kds

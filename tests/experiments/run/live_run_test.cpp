@@ -151,7 +151,7 @@ TEST(LiveRun, ResultsSoFarAreThoseOfAShorterRun) {
 TEST(LiveRun, SaysWhereItIs) {
   const Scene scene = live_scene(2);
   EXPECT_EQ(LiveProgress(scene).state(1, 700, "events", 1041),
-            "2 ps, 350 events/ps, 1,041 contacts now, kds waits");
+            "2 ps, 350.0 events/ps, 1,041 contacts now, kds waits");
 }
 
 TEST(LiveRun, SaysWhoWaitedForWhom) {
