@@ -207,13 +207,14 @@ TEST(LiveOptions, RefuseWhatNeedsAllFrames) {
 
 TEST(LiveParts, StandBesideEachOther) {
   const ScratchDirectory directory;
-  const Json settings{{"cutoff", "8"}, {"until", "5"}};
+  const Json settings{{"cutoff", "8"}, {"gap", 2.0}};
   Destinations to;
   to.out = directory / "out";
   EXPECT_EQ(start_part("contacts.json", settings, to), std::nullopt);
   EXPECT_EQ(to.out, directory / "out");
   std::filesystem::create_directory(*to.out);
-  static_cast<void>(directory.file("out/contacts.json", R"({"settings": {"cutoff": "8", "until": "7"}})"));
+  static_cast<void>(
+      directory.file("out/contacts.json", R"({"settings": {"cutoff": "8", "gap": 2.0, "by": "bead"}})"));
   EXPECT_THAT(start_part("contacts.json", settings, to), testing::Optional(HasSubstr("this run is part 2")));
   EXPECT_EQ(to.out, directory / "out" / "part2");
   std::filesystem::create_directory(*to.out);
@@ -221,7 +222,7 @@ TEST(LiveParts, StandBesideEachOther) {
   EXPECT_THAT(start_part("contacts.json", settings, to), testing::Optional(HasSubstr("this run is part 3")));
   to.out = directory / "out";
   EXPECT_THROW(static_cast<void>(start_part("contacts.json", {{"cutoff", "9"}}, to)), InputError);
-  EXPECT_THROW(static_cast<void>(start_part("contacts.json", {{"gap", "9"}}, to)), InputError);
+  EXPECT_THROW(static_cast<void>(start_part("contacts.json", {{"apart", 3}}, to)), InputError);
 }
 
 TEST(LiveCourses, DoubleTheWidthOfTheirBins) {
