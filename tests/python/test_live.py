@@ -1,8 +1,11 @@
 """Running simulations as inputs: a server on the loopback address sends frames that are known."""
 
+import json
 import os
 import signal
+import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -11,10 +14,10 @@ from pathlib import Path
 import numpy as np
 
 import kds
-from data import DCD, PDB
+from data import DCD, PDB, PROGRAM
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "live"))
-from imd_server import listen, serve  # noqa: E402
+from imd_server import listen, packed, serve  # noqa: E402
 
 
 def wandering(frames=30, beads=12, seed=3):
@@ -150,6 +153,42 @@ class LiveRuns(unittest.TestCase):
             kds.run(positions, radius=1, until=3)
         with self.assertRaisesRegex(kds.InputError, "imd://127.0.0.1:1"):
             kds.run("imd://127.0.0.1:1", radius=1, patience=0.2)
+
+
+class ResultsOfTheProgram(unittest.TestCase):
+    """`kds contacts --out` of simulations that break off, each a part."""
+
+    def follow(self, out, positions, pause=0, **options):
+        frames = [*positions, packed(len(positions), positions[-1], 3, "<", 0.002)[:60]]
+        with Simulation(frames, version=3, pause=pause, **options) as address:
+            program = subprocess.Popen([PROGRAM, "contacts", address, "--cutoff", "5", "--apart", "1", "--out", str(out),
+                                        "--every", "0", "--continue"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            seen, has_ended = set(), False
+            while not has_ended:
+                has_ended = program.poll() is not None
+                try:
+                    seen.add(json.loads((out / "contacts.json").read_text())["complete"])
+                except FileNotFoundError:  # before the first result, or between two renames
+                    pass
+                time.sleep(0.01)
+            return program.returncode, program.communicate()[1], seen
+
+    def test_they_are_written_while_it_runs_and_by_parts(self):
+        runs = [wandering(seed=seed) for seed in (1, 2)]
+        with tempfile.TemporaryDirectory() as scratch:
+            out = Path(scratch) / "out"
+            code, lines, seen = self.follow(out, runs[0], pause=0.05)
+            self.assertEqual((code, seen), (1, {False, True}))
+            self.assertRegex(lines, "the connection has ended inside a packet")
+            self.assertRegex(lines, r"\nkds: waited [\d.]+ s for the simulation in [\d.]+ s; the simulation may have waited")
+            code, lines, _ = self.follow(out, runs[1])
+            self.assertEqual(code, 1)
+            self.assertRegex(lines, "this run is part 2")
+            found = kds.contacts_of_parts(out)
+            self.assertTrue(all(run.json["complete"] and run.json["input"]["truncated"] for run in found.runs))
+            expected = kds.contacts_of_replicas(runs, cutoff=5, apart=1, times=0.002 * np.arange(len(runs[0])))
+            self.assertAlmostEqual(found.all["residence"], expected.all["residence"], places=6)
+            self.assertEqual([len(run.intervals) for run in found.runs], [len(run.intervals) for run in expected.runs])
 
 
 if __name__ == "__main__":
