@@ -28,8 +28,8 @@ AuditError.__module__ = InputError.__module__ = "kds"
 __version__ = _version()
 __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "Contacts", "InputError", "InputWarning",
            "KineticAnalysis", "KineticRun", "Opened", "Replicas", "Run", "StreamFrame", "Structure", "Surface", "Trade",
-           "Updates", "View", "Voids", "closest_by_diagram", "closest_pair", "collide", "colliding_pairs", "compare", "conditions",
-           "contacts", "contacts_of_parts", "contacts_of_replicas", "enclosing_sphere", "generate", "impacts",
+           "Updates", "View", "Voids", "closest_by_diagram", "closest_pair", "collide", "colliding_pairs", "compare",
+           "conditions", "contacts", "contacts_of_parts", "contacts_of_replicas", "enclosing_sphere", "generate", "impacts",
            "layered_hierarchy", "open", "power_diagram", "run", "separating_family", "stream", "structure_names", "surface",
            "trade", "trusted_hierarchy", "update", "voids", "wrapped_hierarchy"]
 

@@ -19,8 +19,8 @@ OF_LIVE = ("until", "patience", "cell", "rate")  # of running simulations
 OF_THE_INPUT = (*INPUT, *OF_FILES, *OF_LIVE)
 # Options of the program that are no arguments, and why.
 _NO_ARGUMENTS = {
-    **dict.fromkeys(("out", "replace", "every", "continue", "paper", "json", "quiet", "view", "dump", "events", "log", "data", "o", "beads"),
-                    "results are attributes of what is returned"),
+    **dict.fromkeys(("out", "replace", "every", "continue", "paper", "json", "quiet", "view", "dump", "events", "log", "data", "o",
+                     "beads"), "results are attributes of what is returned"),
     "frames": "expected start, stop, step", "format": "expected a path with the ending of its format",
     "rounds": "a run is made once; kds.compare takes it", "help": "help(kds.run) explains all arguments"}
 

@@ -161,8 +161,9 @@ class ResultsOfTheProgram(unittest.TestCase):
     def follow(self, out, positions, pause=0, **options):
         frames = [*positions, packed(len(positions), positions[-1], 3, "<", 0.002)[:60]]
         with Simulation(frames, version=3, pause=pause, **options) as address:
-            program = subprocess.Popen([PROGRAM, "contacts", address, "--cutoff", "5", "--apart", "1", "--out", str(out),
-                                        "--every", "0", "--continue"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            program = subprocess.Popen(
+                [PROGRAM, "contacts", address, "--cutoff", "5", "--apart", "1", "--out", str(out), "--every", "0", "--continue"],
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
             seen, has_ended = set(), False
             while not has_ended:
                 has_ended = program.poll() is not None
