@@ -182,6 +182,16 @@ void require_replaceable(const fs::path& place, const std::string& subject, bool
                     old.string()));
 }
 
+// Exchanges two directories at once, so that neither place is ever empty. Returns false if the system or the
+// file system cannot.
+bool exchange([[maybe_unused]] const fs::path& one, [[maybe_unused]] const fs::path& other) {
+#ifdef RENAME_EXCHANGE
+  return ::renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0;
+#else
+  return false;
+#endif
+}
+
 // The directories above a place, made if they do not exist. Empty ones are removed at the end.
 struct ParentsOf {
   ParentsOf(const fs::path& place, const std::string& subject) : last(place.parent_path()), first(last) {
@@ -294,15 +304,16 @@ struct PartFolder {
     move(file(), place);
   }
 
-  // Makes the folder the directory of results. An earlier one is moved aside first and then removed.
+  // Makes the folder the directory of results. An earlier one is moved aside and then removed.
   void become_directory() {
     const fs::path old = place.string() + ".old";
     std::error_code ignored;
     const bool is_there = fs::exists(place, ignored), is_full = is_there && !fs::is_empty(place, ignored);
     if (is_there) fs::permissions(path, fs::status(place, ignored).permissions(), ignored);
-    if (is_full) move(place, old);
+    const bool is_exchanged = is_full && exchange(path, place);
+    if (is_full) move(is_exchanged ? path : place, old);
     try {
-      move(path, place);
+      if (!is_exchanged) move(path, place);
     } catch (...) {
       if (is_full) fs::rename(old, place, ignored);
       throw;
