@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "experiments/events/event_distribution.h"
+#include "experiments/run/load_scene.h"
 #include "experiments/run/run_scene.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/bead_name.h"
