@@ -156,6 +156,7 @@ std::vector<SamplingRow> sampling_rows(const ContactsReport& report) {
   std::vector<SamplingRow> rows{first};
   const double frame = report.run_length / static_cast<double>(report.steps);
   for (const FrameContacts::Row& row : frames.rows()) {
+    if (row.sampling.samples < 2) continue;  // a live run was too short for this spacing
     SamplingRow at_samples{row.sampling.frames_apart(), row.sampling.samples, row.found, {}};
     for (const Kind kind : {FrameContacts::plain, FrameContacts::bridged, FrameContacts::dual}) {
       if (kind == FrameContacts::dual && !two) continue;

@@ -103,7 +103,6 @@ void FrameContacts::finish(std::size_t steps) {
     }
   }
   for (Row& row : rows_) row.sampling.samples = steps * ticks_per_frame / row.sampling.spacing + 1;
-  std::erase_if(rows_, [](const Row& row) { return row.sampling.samples < 2; });
 }
 
 }  // namespace kds

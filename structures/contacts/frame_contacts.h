@@ -72,7 +72,7 @@ class FrameContacts {
   /// is therefore registered first. With one cutoff, there are only inner intervals.
   void add_inner(const ContactInterval& interval);
   void add_outer(const ContactInterval& interval);
-  /// Ends all contacts, after this number of steps. Rows with one sample only are left out.
+  /// Ends all contacts, after this number of steps.
   void finish(std::size_t steps);
 
   /// In the order of the spacings. Complete after finish().
