@@ -169,7 +169,8 @@ ReplayLabels RunHandle::labels() const {
 void RunHandle::execute(const py::object& progress) {
   Use use(*this, progress);
   Watch& watch = use.watch();
-  const std::size_t steps = scene().step_count();
+  const std::size_t steps = scene().is_live() ? 0 : scene().step_count();  // 0: not known
+  const LiveProgress live(scene());
   const std::unique_ptr<ParallelRun> parts = open_parts();
   KineticRun& run = parts ? parts->whole() : *run_;
   StepCounts counts(run, scene());
@@ -207,9 +208,10 @@ void RunHandle::execute(const py::object& progress) {
   parts ? run_steps(*parts, options_, at_frame) : run_steps(*run_, options_, at_frame);
   for (const std::string& line : scene().live_warnings()) warn(line);
   is_behind_ = parts != nullptr;
-  watch.end(steps);
+  watch.end(scene().step_count());
   if (view_) view_->finish();
   report_ = report_of(run, scene(), options_, counts);
+  if (scene().is_live()) report_->live = live.run(true);
   const auto hint = [&](const std::string& warning) {
     if (only_.empty()) warn(warning);  // hints are about all beads
   };

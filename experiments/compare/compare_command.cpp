@@ -102,8 +102,8 @@ CompareOptions parse_compare_options(const Arguments& arguments) {
       read_arguments(with_inputs(kCompareCommand, true, true), compare_options(), arguments, options);
   take_inputs(parsed, kCompareCommand.name, options);
   options.takes_live = true;
-  refuse_if_live(options, parsed.has("--rounds"), "--rounds",
-                 "repeats the runs, and a running simulation gives each frame once; expected no rounds");
+  refuse_if_live(options, parsed.has("--rounds") && options.rounds != 1, "--rounds",
+                 "repeats the runs, and a simulation runs once; expected 1");
   refuse_if_live(options, options.view.has_value(), "--view",
                  "reads all frames again; expected a trajectory that the simulation has written");
   if (is_live(options)) options.rounds = 1;
@@ -111,7 +111,7 @@ CompareOptions parse_compare_options(const Arguments& arguments) {
 }
 
 int compare_command(const Arguments& arguments) {
-  const CompareOptions options = parse_compare_options(arguments);
+  CompareOptions options = parse_compare_options(arguments);
   TableCommand command("compare", arguments, options, "step");
   check_inputs_exist(options);
   const SignalsEndLiveInput on_signal(options);
@@ -121,6 +121,7 @@ int compare_command(const Arguments& arguments) {
   command.check_destinations(std::move(taken));
   if (options.view) ensure_writable_file(*options.view, "--view");
 
+  options.reading.on_wait = waiting_note(command.bar(), options);
   const Comparison comparison = compare_runs(options, command.progress(), command.warn());
   if (options.view) {
     const RunOptions run = first_run(options, comparison);

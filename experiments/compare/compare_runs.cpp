@@ -19,6 +19,7 @@
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_scene.h"
 #include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
 #include "motions/frames/frame_fan.h"
 
 namespace kds {
@@ -456,8 +457,8 @@ RunOptions first_run(const CompareOptions& options, const Comparison& comparison
 
 namespace {
 
-// Runs everything at once over a running simulation, each run on a thread of its own: for each motion and
-// stride one run for its counts and one event by event.
+// Runs all motions and strides at once over a running simulation. Each has two runs, each on its own thread:
+// one counts events, the other measures event by event.
 Comparison compare_live(const CompareOptions& options, const Warn& warn) {
   if (options.inputs.size() > 1)
     throw InputError(fmt::format("{}: a running simulation is compared alone; expected no other input",
@@ -513,13 +514,17 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
       fan.stop();
     }
   };
+  warn(fmt::format("times are those of {} runs at once on {}; to compare times, compare a file", runs.size(),
+                   counted(all_threads(), "core")));
   std::vector<std::thread> threads;
-  for (OneRun& run : runs) threads.emplace_back([&work, &run] { work(run); });
   std::exception_ptr interrupted;
+  std::size_t frames = 0;
   try {
-    fan.pump();
+    for (OneRun& run : runs) threads.emplace_back([&work, &run] { work(run); });
+    frames = fan.pump();
   } catch (...) {
     interrupted = std::current_exception();
+    fan.stop();
   }
   for (std::thread& thread : threads) thread.join();
   if (error) std::rethrow_exception(error);
@@ -527,7 +532,10 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
 
   Comparison comparison;
   comparison.inputs.push_back(described(first, *runs.front().scene, InputNames(options), 0));
-  comparison.inputs.front().truncated = live.frames->is_truncated();
+  ComparedInput& input = comparison.inputs.front();
+  input.truncated = live.frames->is_truncated();
+  input.frames = frames;
+  if (input.frame_picoseconds) *input.frame_picoseconds /= static_cast<double>(options.strides.front());
   comparison.live = clock.run(true, live.frames->live());
   for (std::size_t i = 0; i < runs.size(); i += 2) {
     if (!runs[i].scene || !runs[i + 1].scene) {
@@ -537,11 +545,11 @@ Comparison compare_live(const CompareOptions& options, const Warn& warn) {
     RowsOfRounds rounds;
     rounds.add(std::move(runs[i].rows), runs[i + 1].costs);
     for (CompareRow& row : std::move(rounds).rows()) {
-      row.input = comparison.inputs.front().name;
+      row.input = input.name;
       row.stride = runs[i].stride;
       comparison.rows.push_back(std::move(row));
     }
-    if (runs[i].scene->velocities()) comparison.inputs.front().velocities = runs[i].scene->velocities();
+    if (runs[i].scene->velocities()) input.velocities = runs[i].scene->velocities();
   }
   for (const std::string& line : runs.front().warnings) warn(line);
   for (const std::string& line : live.frames->warnings()) warn(line);

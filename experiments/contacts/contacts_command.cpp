@@ -206,7 +206,8 @@ ContactsFound find_contacts(const ContactsTask& task,
 
 namespace {
 
-/// Delivers results at the end, or those so far while the run goes on. Returns what `deliver_so_far` returns.
+/// Delivers the final results or, unless `is_complete`, the results so far. Returns what `deliver_so_far`
+/// returns.
 std::optional<std::string> deliver(const ContactsOptions& options, const Scene& scene,
                                    const ContactsReport& report, const ContactsFigures& figures,
                                    bool is_complete, TableCommand& command) {
@@ -248,6 +249,7 @@ int contacts_command(const Arguments& arguments) {
   if (options.view) taken.write_page(*options.view, options.destinations);
   command.check_destinations(std::move(taken));
   if (part) print_note(command.bar(), *part);
+  options.task.reading.on_wait = waiting_note(command.bar(), task);
 
   ResultsSoFar regularly(command.bar(), options.live.every);
   const auto hooks_over = [&](const Scene& live_scene) {

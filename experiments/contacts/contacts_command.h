@@ -26,7 +26,7 @@ struct ContactsOptions {
 /// --help. Opens no file.
 [[nodiscard]] ContactsOptions parse_contacts_options(const Arguments& arguments);
 
-/// Returns what is done while a run over this live scene goes on.
+/// Makes the callbacks for a run over this live scene.
 using MakeHooks = std::function<LiveHooks<ContactsReport>(const Scene& scene)>;
 
 struct ContactsFound {

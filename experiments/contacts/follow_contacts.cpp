@@ -225,7 +225,8 @@ void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report
     return copy;
   };
   if (hooks.describe && scene.is_live())
-    hooks.describe([&] { return live.state(steps, report.intervals.size(), "ends", run.contacts_now()); });
+    hooks.describe(
+        [&] { return live.state(steps, report.intervals.size(), "contacts ended", run.contacts_now()); });
   run.run(
       [&](std::size_t frame) {
         steps = frame;

@@ -68,12 +68,13 @@ class ContactCourse {
   void add_frame(std::size_t frame, const Scene& scene);
   /// Adds a contact. Times count steps.
   void add(double begin, double end);
-  /// Says that the run has this number of steps, before contacts are added that last at its last frame.
+  /// Sets the number of steps. Call it before contacts are added that are open at the last frame.
   void end(std::size_t steps) { steps_ = steps; }
   /// Returns the mean of each bin, after `end` if the number of steps was not known. The last bin may have
   /// fewer steps than others.
   [[nodiscard]] std::vector<double> means() const;
-  /// Returns the first frame of each bin. A further one may follow.
+  /// Returns the first frame of each bin. The list may end with the last frame of the run, which begins no
+  /// bin.
   [[nodiscard]] const std::vector<FrameStamp>& first_frames() const { return first_frames_; }
 
  private:

@@ -29,7 +29,7 @@ class EventCourse {
  public:
   static constexpr std::size_t most_bins = 600;  ///< a plot is about this many pixels wide
 
-  /// `width` is the number of steps in a bin, at first.
+  /// `width` is the initial number of steps in a bin.
   explicit EventCourse(std::size_t width = 1) : width_(width) {}
 
   /// Adds the next step, which begins at this frame.

@@ -311,7 +311,11 @@ struct PartFolder {
     const bool is_there = fs::exists(place, ignored), is_full = is_there && !fs::is_empty(place, ignored);
     if (is_there) fs::permissions(path, fs::status(place, ignored).permissions(), ignored);
     const bool is_exchanged = is_full && exchange(path, place);
-    if (is_full) move(is_exchanged ? path : place, old);
+    if (is_exchanged && ::rename(path.c_str(), old.c_str()) != 0)
+      fail_to_write(
+          fmt::format("{}: the result is there; the earlier one stays in {}", place.string(), path.string()),
+          errno);
+    if (is_full && !is_exchanged) move(place, old);
     try {
       if (!is_exchanged) move(path, place);
     } catch (...) {

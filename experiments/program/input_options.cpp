@@ -292,29 +292,44 @@ Cell parse_cell(const std::string& text) {
 }  // namespace
 
 const OptionList<InputOptions>& live_options() {
-  static const std::vector<Option<InputOptions>> options{
-      {{"--until", "TIME",
-        "with a running simulation: end after this time, in picoseconds if the frames have times, otherwise "
-        "in frames (default: when the simulation ends)"},
-       [](InputOptions& o, const std::string& text) {
-         o.reading.until = parse_real("--until", text, {0, 1e12});
-       }},
-      {{"--patience", "SECONDS",
-        "with a running simulation: how long to wait for the connection and for each frame (default: 60)"},
-       [](InputOptions& o, const std::string& text) {
-         o.reading.patience = parse_real("--patience", text, {0, 1e9, true});
-       }},
-      {{"--cell", "A,B,C",
-        "the periodic cell of a running simulation that sends none and keeps it: three lengths in angstrom, "
-        "and "
-        "three angles in degrees unless they are right: A,B,C,ALPHA,BETA,GAMMA (default: none)"},
-       [](InputOptions& o, const std::string& text) { o.reading.cell = parse_cell(text); }},
-      {{"--rate", "N", "ask a running simulation to send every Nth step only (default: what it sends)"},
-       [](InputOptions& o, const std::string& text) {
-         o.reading.rate = static_cast<unsigned>(parse_whole_number("--rate", text, 1, 1'000'000'000));
-       }},
-  };
-  static const OptionList<InputOptions> list(options);
+  static const std::string rate_help = fmt::format(
+      "ask a running simulation to send only every Nth step; {} is then the time of N steps (default: what "
+      "it "
+      "sends)",
+      "--dt"_arg);
+  static const OptionList<InputOptions> list = [] {
+    std::vector<Option<InputOptions>> options{
+        {{"--until", "TIME",
+          "with a running simulation: end after this time, in picoseconds if the frames have times, "
+          "otherwise "
+          "in frames (default: when the simulation ends)"},
+         [](InputOptions& o, const std::string& text) {
+           o.reading.until = parse_real("--until", text, {0, 1e12});
+         },
+         [](const InputOptions& o) { return o.reading.until ? fmt::format("{}", *o.reading.until) : ""; }},
+        {{"--cell", "A,B,C",
+          "periodic cell of a running simulation, if it sends none and the cell does not change: three "
+          "lengths in angstrom and, unless all angles are 90 degrees, three angles: A,B,C,ALPHA,BETA,GAMMA "
+          "(default: none)"},
+         [](InputOptions& o, const std::string& text) {
+           o.reading.cell = parse_cell(text);
+           o.cell = text;
+         },
+         [](const InputOptions& o) { return o.cell; }},
+        {{"--rate", "N", rate_help},
+         [](InputOptions& o, const std::string& text) {
+           o.reading.rate = static_cast<unsigned>(parse_whole_number("--rate", text, 1, 1'000'000'000));
+         },
+         [](const InputOptions& o) { return o.reading.rate ? fmt::format("{}", *o.reading.rate) : ""; }},
+        {{"--patience", "SECONDS",
+          "with a running simulation: how long to wait for the connection and for each frame (default: 60)"},
+         [](InputOptions& o, const std::string& text) {
+           o.reading.patience = parse_real("--patience", text, {0, 1e9, true});
+         }},
+    };
+    for (Option<InputOptions>& option : options) option.shown_if_given = true;
+    return options;
+  }();
   return list;
 }
 

@@ -34,6 +34,7 @@ struct InputOptions {
   std::optional<VelocitySource> velocities = {};  ///< --velocities; none: the file if they help (FrameSurvey)
   bool periodic = true;  ///< images of beads count where all frames have a cell; false: --no-periodic
   std::optional<std::filesystem::path> obstacle = {};  ///< --obstacle, for the commands that have it
+  std::string cell = {};                               ///< --cell, as given
   bool takes_live = false;  ///< the command can follow a running simulation; others refuse such an input
 };
 
@@ -45,7 +46,8 @@ struct InputOptions {
 [[nodiscard]] const Option<InputOptions>& obstacle_option();
 /// Returns the option --velocities, for commands whose beads may move on Hermite curves.
 [[nodiscard]] const Option<InputOptions>& velocities_option();
-/// Returns the options --until, --patience and --rate, for commands that can follow a running simulation.
+/// Returns the options --until, --cell, --rate and --patience, for commands that can follow a running
+/// simulation.
 [[nodiscard]] const OptionList<InputOptions>& live_options();
 /// Returns the option --groups, for commands that look at pairs of beads. `help` must outlive the option.
 [[nodiscard]] Option<InputOptions> groups_option(

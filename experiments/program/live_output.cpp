@@ -47,6 +47,10 @@ void refuse_if_live(const InputOptions& input, bool is_given, std::string_view o
   if (is_given && is_live(input)) throw InputError(option, std::string(reason));
 }
 
+std::function<void()> waiting_note(ProgressBar& bar, const InputOptions& input) {
+  return [&bar, names = file_names(input)] { print_note(bar, names + " does not listen yet; trying again"); };
+}
+
 void warn_of_threads(std::optional<std::size_t> threads,
                      const std::function<void(const std::string&)>& warn) {
   if (threads.value_or(1) > 1)
@@ -67,6 +71,7 @@ std::optional<std::string> start_part(std::string_view file, const Json& setting
     throw InputError("--continue",
                      fmt::format("{} has no settings; give another directory", result.string()));
   for (const auto& [name, value] : *settings.members()) {
+    if (name == "until") continue;  // tells only when a part ends
     const Json* const before = known->find(name);
     if (before == nullptr || line_of(*before) != line_of(value))
       throw InputError(
@@ -78,9 +83,8 @@ std::optional<std::string> start_part(std::string_view file, const Json& setting
   std::size_t part = 2;
   while (fs::exists(first / fmt::format("part{}", part), error)) ++part;
   destinations.out = first / fmt::format("part{}", part);
-  return fmt::format(
-      "{} holds earlier results, so this run is part {}; its frames and times start anew in {}",
-      first.string(), part, destinations.out->string());
+  return fmt::format("{} holds earlier results; this is part {}, in {}", first.string(), part,
+                     destinations.out->string());
 }
 
 void add_live(Json& json, const LiveRun& live) {

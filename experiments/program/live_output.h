@@ -1,6 +1,5 @@
 #pragma once
-// What commands that follow a running simulation have in common: results while it runs, runs that go on as
-// parts, and who waited for whom.
+// Shared by commands that follow a running simulation: results while it runs, parts, and who waited for whom.
 
 #include <algorithm>
 #include <chrono>
@@ -37,6 +36,10 @@ void check_live_output(const LiveOutput& live, const InputOptions& input, const 
 void refuse_if_live(const InputOptions& input, bool is_given, std::string_view option,
                     std::string_view reason);
 
+/// Returns a function that says that the simulation does not listen yet (ReadOptions::on_wait). The bar must
+/// outlive the function.
+[[nodiscard]] std::function<void()> waiting_note(ProgressBar& bar, const InputOptions& input);
+
 /// Warns if more than one thread is asked for: frames that come one by one are run on one thread.
 void warn_of_threads(std::optional<std::size_t> threads, const std::function<void(const std::string&)>& warn);
 
@@ -46,7 +49,7 @@ void warn_of_threads(std::optional<std::size_t> threads, const std::function<voi
 [[nodiscard]] std::optional<std::string> start_part(std::string_view file, const Json& settings,
                                                     Destinations& destinations);
 
-/// What a command does while a run over live frames goes on. Either function may be empty.
+/// Callbacks of a command during a run over live frames. Either may be empty.
 template <class Report>
 struct LiveHooks {
   /// Gets a function that describes the frame just reached, for the progress bar. The function is valid
@@ -74,7 +77,13 @@ class ResultsSoFar {
         const Clock::time_point start = Clock::now();
         if (!next_) next_ = start + every_;
         if (start < *next_) return;
-        if (const auto reason = write(make()); reason && !std::exchange(is_warned_, true))
+        std::optional<std::string> reason;
+        try {
+          reason = write(make());
+        } catch (const OutputError& error) {  // the disk may have room later
+          reason = error.what();
+        }
+        if (reason && !std::exchange(is_warned_, true))
           print_warning(bar_, *reason + "; the run goes on, and tries again later");
         const Clock::time_point end = Clock::now();
         next_ = end + std::max(every_, Seconds(20 * (end - start)));
@@ -92,7 +101,7 @@ class ResultsSoFar {
   bool is_warned_ = false;
 };
 
-/// How a run over live frames has gone so far.
+/// State of a run over live frames.
 struct LiveRun {
   bool is_complete = false;  ///< whether the run has ended
   double seconds = 0;        ///< since the run began

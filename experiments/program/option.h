@@ -60,6 +60,7 @@ struct Option {
   ShowValues values;
   /// The name of the setting. By default, the option's name without its dashes.
   std::string setting;
+  bool shown_if_given = false;  ///< the setting is left out where it has no value
   /// The words that the option applies to, such as names of structures. Empty if it always applies.
   std::vector<std::string_view> applies_to;
 
@@ -130,15 +131,14 @@ class OptionList {
   /// value.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> settings(const Options& options) const {
     std::vector<std::pair<std::string, std::string>> settings;
-    for (const auto& option : options_) {
-      if (option.text) settings.emplace_back(option.setting, option.text(options));
-    }
+    for (const auto& option : options_)
+      if (is_shown(option, options)) settings.emplace_back(option.setting, option.text(options));
     return settings;
   }
   /// Adds the settings to the members of `settings`, which may already hold others such as the operands.
   [[nodiscard]] Json settings_json(const Options& options, Json settings = Json::object()) const {
     for (const auto& option : options_) {
-      if (option.text)
+      if (is_shown(option, options))
         settings[option.setting] = option.json ? option.json(options) : Json(option.text(options));
     }
     return settings;
@@ -174,6 +174,9 @@ class OptionList {
   }
 
  private:
+  [[nodiscard]] static bool is_shown(const Option<Options>& option, const Options& options) {
+    return option.text && !(option.shown_if_given && option.text(options).empty());
+  }
   static void read_values_of(const Option<Options>& option, const std::vector<std::string>& values,
                              Options& options) {
     if (option.read_values)
@@ -189,6 +192,7 @@ class OptionList {
       Option<Options>& option = options.emplace_back();
       option.spec = o.spec;
       option.setting = o.setting;
+      option.shown_if_given = o.shown_if_given;
       option.applies_to = o.applies_to;
       option.read = [read = o.read, part_of](Options& all, const std::string& text) {
         read(part_of(all), text);

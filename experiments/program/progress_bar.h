@@ -47,7 +47,7 @@ class ProgressBar {
   bool visible_ = false;
 };
 
-/// Each prints one line, a warning or a note. The progress bar is erased first.
+/// Print a warning or a note as one line on standard error. The progress bar is erased first.
 void print_warning(ProgressBar& bar, const std::string& warning);
 void print_note(ProgressBar& bar, const std::string& note);
 

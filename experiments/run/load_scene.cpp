@@ -23,7 +23,35 @@
 
 namespace kds {
 
+namespace {
+
+// Throws InputError if the command cannot follow a running simulation, or if options for one are given
+// without one.
+void check_live_options(const InputOptions& options) {
+  if (is_live(options)) {
+    if (!options.takes_live)
+      throw InputError(fmt::format(
+          "{}: only {} follow a running simulation, which gives each frame once; "
+          "expected a file",
+          file_names(options),
+          words("kds run, contacts and compare", "kds.run, kds.contacts, kds.compare and kds.stream")));
+    return;
+  }
+  const ReadOptions& reading = options.reading;
+  const std::string_view given = reading.until      ? "--until"
+                                 : reading.patience ? "--patience"
+                                 : reading.cell     ? "--cell"
+                                 : reading.rate     ? "--rate"
+                                                    : "";
+  if (!given.empty())
+    throw InputError(given, fmt::format("is for a running simulation; expected its address, {}, as an input",
+                                        live_example));
+}
+
+}  // namespace
+
 std::optional<Instance> read_lone_instance(const InputOptions& options) {
+  check_live_options(options);
   const auto instance = std::find_if(options.inputs.begin(), options.inputs.end(),
                                      [](const auto& path) { return is_instance_file(path); });
   if (instance == options.inputs.end()) return std::nullopt;
@@ -48,10 +76,6 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   refuse(!options.periodic, "--no-periodic");
   refuse(options.radius != "auto", "--radius");
   refuse(options.obstacle.has_value(), "--obstacle");
-  refuse(reading.until.has_value(), "--until");
-  refuse(reading.patience.has_value(), "--patience");
-  refuse(reading.cell.has_value(), "--cell");
-  refuse(reading.rate.has_value(), "--rate");
   return read_instance(*instance);
 }
 
@@ -212,29 +236,6 @@ bool takes_side_chains(const std::vector<NecklaceStream>& files, const Selection
                      [](const NecklaceStream& file) { return !file.chain_like(); });
 }
 
-// Throws InputError if the command cannot follow a running simulation, or if options for one are given
-// without one.
-void check_live_options(const InputOptions& options) {
-  if (is_live(options)) {
-    if (!options.takes_live)
-      throw InputError(fmt::format(
-          "{}: only {} follow a running simulation, which gives each frame once; "
-          "expected a file",
-          file_names(options),
-          words("kds run, contacts and compare", "kds.run, kds.contacts, kds.compare and kds.stream")));
-    return;
-  }
-  const ReadOptions& reading = options.reading;
-  const std::string_view given = reading.until      ? "--until"
-                                 : reading.patience ? "--patience"
-                                 : reading.cell     ? "--cell"
-                                 : reading.rate     ? "--rate"
-                                                    : "";
-  if (!given.empty())
-    throw InputError(given, fmt::format("is for a running simulation; expected its address, {}, as an input",
-                                        live_example));
-}
-
 }  // namespace
 
 std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
@@ -305,10 +306,6 @@ LiveInput open_live(const InputOptions& input, const std::function<void(const st
                                              file_names(input)));
   InputOptions opened = input;
   opened.reading.velocities = input.velocities == VelocitySource::file;
-  if (!opened.reading.on_wait)
-    opened.reading.on_wait = [&] {
-      warn(fmt::format("{} does not listen yet; trying again", file_names(input)));
-    };
   auto frames = std::make_unique<LiveFrames>(open_frames(opened, warn));
   FrameSurvey survey = frames->survey();
   if (opened.reading.velocities && !survey.velocities)

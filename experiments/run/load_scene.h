@@ -27,8 +27,8 @@ namespace kds {
 /// Throws InputError for an instance file, which has `what`.
 void refuse_instance(const InputOptions& options, std::string_view what = "no frames");
 
-/// While it lives, Ctrl-C and the signal TERM end a live input of these options, so that the results of the
-/// frames seen are written. A second signal ends the program. Signals that are ignored stay so.
+/// While this object lives, Ctrl-C and the signal TERM end a live input of these options, so that the results
+/// of the frames seen are written. A second signal ends the program. Signals that are ignored stay so.
 class SignalsEndLiveInput {
  public:
   explicit SignalsEndLiveInput(const InputOptions& options);

@@ -47,6 +47,7 @@ int run_command(const Arguments& arguments) {
   RunResults results(options, options.events, options.view);
   ProgressBar bar(!options.quiet, "step");
   if (part) print_note(bar, *part);
+  options.reading.on_wait = waiting_note(bar, options);
   ResultsSoFar regularly(bar, options.every);
   RunReport report = run_scene(
       options,

@@ -107,7 +107,8 @@ void complete_report(const RunOptions& options, const Scene& scene,
 [[nodiscard]] RunReport run_scene(const RunOptions& options, const Progress& progress,
                                   const std::function<void(const std::string&)>& warn, RunResults& results,
                                   const LiveHooks<RunReport>& hooks = {});
-/// Does the same over a scene that is loaded. `warnings` are passed on once the structures accept the scene.
+/// Runs over a loaded scene, as run_scene does. `warnings` are passed on once the structures accept the
+/// scene.
 [[nodiscard]] RunReport run_over(const Scene& scene, HeldWarnings& warnings, const RunOptions& options,
                                  const Progress& progress,
                                  const std::function<void(const std::string&)>& warn, RunResults& results,

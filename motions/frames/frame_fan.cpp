@@ -62,8 +62,9 @@ std::unique_ptr<FrameSource> FrameFan::branch(std::size_t stride) {
   return std::make_unique<Branch>(*this, stride);
 }
 
-void FrameFan::pump() try {
-  for (std::size_t number = 0;; ++number) {
+std::size_t FrameFan::pump() try {
+  std::size_t number = 0;
+  for (;; ++number) {
     const auto frame = std::make_shared<FrameRead>();
     if (!source_.next(*frame)) break;
     std::unique_lock lock(mutex_);
@@ -82,6 +83,7 @@ void FrameFan::pump() try {
     changed_.notify_all();
   }
   stop();
+  return number;
 } catch (...) {
   stop();
   throw;

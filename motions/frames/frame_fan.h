@@ -28,8 +28,9 @@ class FrameFan {
   /// before `pump`. Another thread may read and destroy a branch.
   [[nodiscard]] std::unique_ptr<FrameSource> branch(std::size_t stride);
   /// Reads the source to its end, on this thread, and hands each frame to the branches. Waits while a branch
-  /// has not read its frames. If the source throws, the branches end and the exception is passed on.
-  void pump();
+  /// has not read its frames. Returns the number of frames. If the source throws, the branches end and the
+  /// exception is passed on.
+  std::size_t pump();
   /// Ends all branches after the frames that wait for them, and `pump` when its source gives the next frame.
   /// May be called on any thread.
   void stop();

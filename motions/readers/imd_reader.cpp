@@ -103,6 +103,9 @@ class ImdFrames final : public AtomFrames {
           fmt::format("{}: kds disconnected after frame {}; a simulation that goes on may wait for "
                       "another client (LAMMPS unless nowait on, GROMACS with -imdwait)",
                       name_, frames_ - 1));
+    if (!frame_.step && receiver_.state().seconds_full > 0)
+      notes.push_back(name_ +
+                      ": sends no step numbers, and kds was too slow for a while; frames may be missing");
     if (falls_short_)
       notes.push_back(
           fmt::format("{}: the simulation has ended after frame {}, before the last frame asked for", name_,

@@ -30,7 +30,7 @@ __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "Contacts", "
            "KineticAnalysis", "KineticRun", "Opened", "Replicas", "Run", "StreamFrame", "Structure", "Surface", "Trade",
            "Updates", "View", "Voids", "closest_by_diagram", "closest_pair", "collide", "colliding_pairs", "compare",
            "conditions", "contacts", "contacts_of_parts", "contacts_of_replicas", "enclosing_sphere", "generate", "impacts",
-           "layered_hierarchy", "open", "power_diagram", "run", "separating_family", "stream", "structure_names", "surface",
+           "layered_hierarchy", "power_diagram", "run", "separating_family", "stream", "structure_names", "surface",
            "trade", "trusted_hierarchy", "update", "voids", "wrapped_hierarchy"]
 
 

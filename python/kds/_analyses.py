@@ -192,13 +192,15 @@ def contacts_of_parts(folder):
 
     ``folder`` is DIR. The parts are the results in DIR itself, DIR/part2, DIR/part3 and so on. Returns :class:`kds.Replicas`
     with a run for each part. A contact that a part cuts off is censored there, and is not joined with one of the next part.
-    Intervals come from the spread between parts. They hold if parts last much longer than contacts.
+    Intervals take parts as independent and of similar length. They hold if each part is many times as long as the slowest
+    motion of the system. Otherwise they are too narrow.
     """
-    if not os.path.isfile(os.path.join(folder, "contacts.json")):
-        raise InputError(f"{folder}: has no contacts.json; expected a folder that kds contacts --out has written")
-    parts = [folder]
-    while os.path.isdir(part := os.path.join(folder, f"part{len(parts) + 1}")):
-        parts.append(part)
+    numbers = sorted(int(name[4:]) for name in (os.listdir(folder) if os.path.isdir(folder) else ())
+                     if name.startswith("part") and name[4:].isdigit())
+    parts = [folder, *(os.path.join(folder, f"part{number}") for number in numbers)]
+    for part in parts:
+        if not os.path.isfile(os.path.join(part, "contacts.json")):
+            raise InputError(f"{part}: has no contacts.json; expected a folder that kds contacts --out has written")
     return Replicas([_contacts_in(part) for part in parts])
 
 

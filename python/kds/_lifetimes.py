@@ -128,7 +128,8 @@ def survival_at(times, runs):
 
 def pooled_survival(times, runs):
     """Returns a table of ``survival_at`` with intervals from the jackknife over replicas, for the logarithm."""
-    times, count = lags_of("times", times, min(run.length for run in runs)), len(runs)
+    longest = sorted(run.length for run in runs)[-2:][0]  # all but one reach it, also if the longest run is left out
+    times, count = lags_of("times", times, longest), len(runs)
     share = survival_at(times, runs)
     with np.errstate(divide="ignore", invalid="ignore"):
         without = np.log([survival_at(times, runs[:k] + runs[k + 1:]) for k in range(count)]) if count > 1 else np.zeros((1, 1))

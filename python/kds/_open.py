@@ -6,7 +6,7 @@ from ._run import Run
 
 
 class Opened:
-    """An input with its options. Made by :func:`kds.open`. The options of each method come on top of those of the input."""
+    """An input with its options. Made by :func:`kds.open`. Options of a method override those of the input."""
 
     def __init__(self, source, options):
         self.source = source

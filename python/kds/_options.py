@@ -213,7 +213,7 @@ def progress_bar(verbose, unit):
     bar = tqdm(total=0, unit=unit)
 
     def show(done, within, total):
-        bar.total = total
+        bar.total = total or None
         bar.n = round(done + within, 2)
         bar.refresh()
 

@@ -174,6 +174,8 @@ class Run:
     def _contacts(self, **options):
         from ._analyses import Contacts, find
 
+        if self._core.is_live:
+            raise InputError("lifetimes: a running simulation gives each frame once; expected kds.contacts(source, cutoff=...)")
         options = {name: value for name, value in options.items() if value is not None}
         for name in OF_THE_INPUT:
             if name in options:

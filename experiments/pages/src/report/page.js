@@ -45,7 +45,7 @@ function howMade(meta, result) {
 export function showReport(meta, result, { title, answer, holds = null, more = [], first, side = null, notes = [],
     sections = [] }) {
   document.title = title;
-  const goesOn = result.complete === false ? ["The run goes on. These are the results so far: load the page again for newer ones."]
+  const goesOn = result.complete === false ? ["The run had not ended when this page was written. Load the page again for newer results."]
     : [];
   const warnings = [...goesOn, ...(result.warnings ?? []), ...notes];
   byId("report").replaceChildren(...[
