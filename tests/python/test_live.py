@@ -27,21 +27,24 @@ def wandering(frames=30, beads=12, seed=3):
 
 
 class Simulation:
-    """Sends frames to the next client, on a thread. `pause` seconds pass before each frame."""
+    """Sends frames to the next client, on a thread. `pause` seconds pass before each frame; `interrupt` is the number of the
+    frame at which this process gets SIGINT."""
 
-    def __init__(self, frames, pause=0, **options):
+    def __init__(self, frames, pause=0, interrupt=None, **options):
         self.listener = listen()
         self.address = f"imd://127.0.0.1:{self.listener.getsockname()[1]}"
 
         def slowly():
-            for frame in frames:
+            for k, frame in enumerate(frames):
                 time.sleep(pause)
+                if k == interrupt:
+                    os.kill(os.getpid(), signal.SIGINT)
                 yield frame
 
         def run():
             self.sent, self.messages = serve(slowly(), self.listener, **options)
 
-        self.thread = threading.Thread(target=run)
+        self.thread = threading.Thread(target=run, daemon=True)
 
     def __enter__(self):
         self.thread.start()
@@ -64,6 +67,10 @@ class LiveRuns(unittest.TestCase):
                 self.assertEqual(found.frame_count, len(positions))
                 np.testing.assert_array_equal(found.events["beads"], expected.events["beads"])
                 self.assertEqual(np.isnan(found.times).all(), version == 2)
+                self.assertEqual(found.summary["live"]["received"], len(positions))
+                self.assertNotIn("static_seconds", found.summary["structures"]["power"])
+        with self.assertRaisesRegex(kds.InputError, "lifetimes: a running simulation"):
+            found.contacts.lifetimes()
 
     def test_velocities_and_cells_of_version_3(self):
         positions, box = wandering(), np.diag([30.0, 31.0, 32.0])
@@ -113,7 +120,7 @@ class LiveRuns(unittest.TestCase):
         run = kds.run(positions, radius=1.2, structures=["power"])
         self.assertEqual(counts, np.bincount(run.events["step"] + 1, minlength=len(positions)).tolist())
 
-        options = dict(radius=1.2, structures=["power", "contacts"], strides=[1, 3], motions=["linear", "hermite"])
+        options = dict(radius=1.2, structures=["power", "contacts"], strides=[2, 3], motions=["linear", "hermite"])
         with Simulation(positions) as address:
             found = kds.compare(address, **options)
         expected = kds.compare(positions, rounds=1, **options)
@@ -133,8 +140,7 @@ class LiveRuns(unittest.TestCase):
 
     def test_ctrl_c_ends_the_input_and_keeps_what_was_seen(self):
         positions = np.concatenate([wandering()] * 200)
-        with Simulation(positions, pause=0.01) as address:
-            threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with Simulation(positions, pause=0.001, interrupt=100) as address:
             found = kds.run(address, radius=1.2, structures=["contacts"])
         self.assertGreater(found.frame_count, 2)
         self.assertLess(found.frame_count, 1000)
@@ -184,12 +190,38 @@ class ResultsOfTheProgram(unittest.TestCase):
             self.assertRegex(lines, r"\nkds: waited [\d.]+ s for the simulation in [\d.]+ s; the simulation may have waited")
             code, lines, _ = self.follow(out, runs[1])
             self.assertEqual(code, 1)
-            self.assertRegex(lines, "this run is part 2")
+            self.assertRegex(lines, "this is part 2")
             found = kds.contacts_of_parts(out)
             self.assertTrue(all(run.json["complete"] and run.json["input"]["truncated"] for run in found.runs))
             expected = kds.contacts_of_replicas(runs, cutoff=5, apart=1, times=0.002 * np.arange(len(runs[0])))
             self.assertAlmostEqual(found.all["residence"], expected.all["residence"], places=6)
             self.assertEqual([len(run.intervals) for run in found.runs], [len(run.intervals) for run in expected.runs])
+
+
+    def test_comparisons_count_all_frames(self):
+        with Simulation(wandering(41), version=3) as address:
+            run = subprocess.run([PROGRAM, "compare", address, "--radius", "1", "--structures", "contacts", "--strides", "2,4",
+                                  "--json", "-"], capture_output=True, text=True, check=True)
+        found = json.loads(run.stdout)
+        self.assertEqual(found["inputs"][0]["frames"], 41)
+        self.assertAlmostEqual(found["inputs"][0]["frame_picoseconds"], 0.002)
+        self.assertEqual(found["live"]["received"], 41)
+
+    def test_signals_end_the_input(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with tempfile.TemporaryDirectory() as scratch, Simulation(wandering(2000), pause=0.005) as address:
+                out = Path(scratch) / "out"
+                program = subprocess.Popen([PROGRAM, "run", address, "--radius", "1", "--structures", "contacts", "--out", str(out),
+                                            "--every", "0"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                while not (out / "summary.json").exists() and program.poll() is None:
+                    time.sleep(0.01)
+                program.send_signal(number)
+                lines = program.communicate()[1]
+                self.assertEqual(program.returncode, 0, lines)
+                found = json.loads((out / "summary.json").read_text())
+                self.assertTrue(found["complete"])
+                self.assertLess(found["input"]["frames"], 2000)
+                self.assertRegex(lines, "kds disconnected after frame")
 
 
 if __name__ == "__main__":

@@ -166,14 +166,20 @@ TEST(LiveRun, SaysWhoWaitedForWhom) {
 
 TEST(LiveRun, WritesSeldomIfWritingIsSlow) {
   ProgressBar bar(false, "step");
-  ResultsSoFar regularly(bar, 0.0);
+  ResultsSoFar regularly(bar, 0.0), never(bar, 1000.0);
   int written = 0;
   const auto hooks = regularly.hooks<int>(true, [&](int) {
     ++written;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
     return std::optional<std::string>();
   });
   for (int frame = 0; frame < 10; ++frame) hooks.at_frame([] { return 1; });
+  EXPECT_EQ(written, 1);
+  const auto late = never.hooks<int>(true, [&](int) {
+    ++written;
+    return std::optional<std::string>();
+  });
+  for (int frame = 0; frame < 10; ++frame) late.at_frame([] { return 1; });
   EXPECT_EQ(written, 1);
   EXPECT_FALSE(regularly.hooks<int>(false, {}).at_frame);
 }
@@ -215,11 +221,11 @@ TEST(LiveParts, StandBesideEachOther) {
   std::filesystem::create_directory(*to.out);
   static_cast<void>(
       directory.file("out/contacts.json", R"({"settings": {"cutoff": "8", "gap": 2.0, "by": "bead"}})"));
-  EXPECT_THAT(start_part("contacts.json", settings, to), testing::Optional(HasSubstr("this run is part 2")));
+  EXPECT_THAT(start_part("contacts.json", settings, to), testing::Optional(HasSubstr("this is part 2")));
   EXPECT_EQ(to.out, directory / "out" / "part2");
   std::filesystem::create_directory(*to.out);
   to.out = directory / "out";
-  EXPECT_THAT(start_part("contacts.json", settings, to), testing::Optional(HasSubstr("this run is part 3")));
+  EXPECT_THAT(start_part("contacts.json", settings, to), testing::Optional(HasSubstr("this is part 3")));
   to.out = directory / "out";
   EXPECT_THROW(static_cast<void>(start_part("contacts.json", {{"cutoff", "9"}}, to)), InputError);
   EXPECT_THROW(static_cast<void>(start_part("contacts.json", {{"apart", 3}}, to)), InputError);
