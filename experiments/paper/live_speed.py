@@ -41,8 +41,13 @@ def read_all(port):
 
 
 def follow(**options):
-    """Returns a client that returns the number of events that kds finds."""
-    return lambda port: len(kds.run(f"imd://127.0.0.1:{port}", structures=["wrapped", "contacts"], **options).events)
+    """Returns a client that returns the number of frames that kds receives, and of events that it finds."""
+
+    def run(port):
+        found = kds.run(f"imd://127.0.0.1:{port}", structures=["wrapped", "contacts"], **options)
+        return found.frame_count, len(found.events)
+
+    return run
 
 
 def simulate(steps, client, folder, group="written"):
@@ -73,6 +78,7 @@ def main():
     rounds, steps, length = (1, 50, 20) if report.short else (3, 500, 200)
     villin = trajectory("villin", report.data)
     villin = np.concatenate([villin, villin[::-1]] * (1 if report.short else 5))  # to and fro
+    received = []  # frames that kds receives, and all
     inputs = {"villin, backbone, 20 fs": (villin, {"cutoff": 4.5, "radius": 0.75})}
     with tempfile.TemporaryDirectory() as folder:
         if shutil.which("lmp") and EXAMPLE.exists():
@@ -82,12 +88,15 @@ def main():
             speeds = {name: [] for name in clients}
             for _ in range(rounds):
                 for name, client in clients.items():
-                    speeds[name].append(simulate(steps, client, folder)[0])
+                    speed, found = simulate(steps, client, folder)
+                    speeds[name].append(speed)
+                    if name == "kds":
+                        received.append((found[0], steps))
             alone = statistics.median(speeds["no client"])
             rows = [{"row": f"LAMMPS, {name}", "steps_per_second": statistics.median(of), "least": min(of), "most": max(of),
                      "share": statistics.median(of) / alone} for name, of in speeds.items()]
             report.show(["peptide, LAMMPS", "steps a second", "least", "most", "share"], [list(row.values()) for row in rows])
-            report.results["rows"] += rows
+            report.results["simulation"] = rows
             content = simulate(length, read_all, folder, "all")[1]
             kind = np.dtype([("head", "V8"), ("positions", "<f4", (int.from_bytes(content[12:16], "big"), 3))])
             recorded = np.frombuffer(content[8:], kind)["positions"]
@@ -100,11 +109,13 @@ def main():
         for name, (frames, options) in inputs.items():
             reads = statistics.median(replay(frames, read_all)[0] for _ in range(rounds))
             found = [replay(frames, follow(**options)) for _ in range(rounds)]
-            follows, events = statistics.median(speed for speed, _ in found), found[0][1]
+            follows, events = statistics.median(speed for speed, _ in found), found[0][1][1]
+            received += [(of_run[0], len(frames)) for _, of_run in found]
             rows.append({"row": name, "beads": frames.shape[1], "read": reads, "followed": follows,
                          "events_per_frame": events / (len(frames) - 1)})
         report.show(["frames a second", "beads", "read", "followed", "events a frame"], [list(row.values()) for row in rows])
         report.results["rows"] += rows
+    report.claim("all", "kds receives every frame", all(one == every for one, every in received), f"{len(received)} runs")
     report.finish()
 
 
