@@ -77,13 +77,12 @@ def follow_files(sources):
     return {name: {stride: follow(name, file, given)[1] for stride, (file, given) in sources.items()} for name in MEASURES}
 
 
-@contextlib.contextmanager
-def sent(frames):
-    """Sends frames to all followers. Gives their addresses."""
+def send(frames):
+    """Sends frames to all followers. Returns their addresses."""
     listeners = [imd_server.listen() for _ in range(FOLLOWERS)]
     for listener in listeners:
         threading.Thread(target=imd_server.serve, args=(frames, listener, 3), daemon=True).start()
-    yield [f"imd://127.0.0.1:{listener.getsockname()[1]}" for listener in listeners]
+    return [f"imd://127.0.0.1:{listener.getsockname()[1]}" for listener in listeners]
 
 
 @contextlib.contextmanager
@@ -118,8 +117,7 @@ def of_data(report):
     given, length = {"topology": path.with_name("peptide_2fs.gro")}, (stop - 1) * PS
     content = spacing.read_frames(path, 1)[:stop, -(9 + 6 * 76) * 4:]  # cell, positions and velocities of 76 atoms
     numbers = 10 * np.ascontiguousarray(content).view(">f4").reshape(stop, -1, 3)
-    with sent([(one[3:79], one[79:], one[:3]) for one in numbers]) as addresses:
-        live = follow_all(addresses, given, length)
+    live = follow_all(send([(one[3:79], one[79:], one[:3]) for one in numbers]), given, length)
     return live, follow_files({stride: (path, {**given, "stop": stop, "step": stride}) for stride in STRIDES}), length
 
 
