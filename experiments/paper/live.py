@@ -6,7 +6,7 @@ last 1 ps, and C the share that is there 1 ps later (--short: 0.1 ps). Means ove
 
 By default nothing is simulated: the server of tests/live sends the run in data/trajectories (3 ps), and live figures must be
 those of the file. --lammps DIR simulates the peptide in water (2,004 atoms, 20 ps in steps of 2 fs; Debian: lammps,
-lammps-examples), which takes 4 to 8 minutes a seed and 100 MB in DIR. All measures follow one simulation at the same time.
+lammps-examples), which takes 4 to 8 minutes a seed and 90 MB in DIR. All measures follow one simulation at the same time.
 """
 
 import contextlib
@@ -147,7 +147,7 @@ def claims(report, runs):
 
 def main():
     report = Report(__doc__, lammps={"metavar": "DIR", "type": Path, "help": "simulate in this folder"},
-                    seeds={"metavar": "N", "type": int, "default": 5, "help": "number of simulations (default: 5)"})
+                    seeds={"metavar": "N", "type": int, "choices": range(1, 21), "default": 5, "help": "simulations (default: 5)"})
     folder, runs, steps = report.given.lammps, [], 1000 if report.short else 10000
     if folder and not (shutil.which("lmp") and Path(EXAMPLE).exists() and folder.is_dir()):
         raise SystemExit(f"--lammps: needs lmp, {EXAMPLE} and the folder {folder}")
