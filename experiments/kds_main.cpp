@@ -67,8 +67,9 @@ std::string program_help() {
   add("--help", "print the same: kds --help, kds run --help");
   add("--version", "print the version");
   constexpr std::string_view exit_codes =
-      "0 success, 1 internal failure, failed audit or results that differ (replay, the methods "
-      "of collide, stability), 2 wrong usage or input, 75 an interrupted sweep, which the same command "
+      "0 success, 1 internal failure, failed audit, results that differ (replay, the methods "
+      "of collide, stability) or a running simulation whose connection broke, 2 wrong usage or input, 75 an "
+      "interrupted sweep, which the same command "
       "continues";
   return text + "\nexit codes: " + wrapped(exit_codes, help_width(), 12) + '\n';
 }

@@ -262,8 +262,10 @@ const Option<InputOptions>& obstacle_option() {
 const Option<InputOptions>& velocities_option() {
   static const Option<InputOptions> option(
       {"--velocities", "NAME",
-       "velocities of Hermite curves: file (TRR, AMBER NetCDF, LAMMPS dumps) or differences (of positions) "
-       "(default: file if all frames have velocities and times, and these help; otherwise differences)"},
+       "velocities of Hermite curves: file (TRR, AMBER NetCDF, LAMMPS dumps, IMD of version 3) or "
+       "differences "
+       "(of positions) (default: file if all frames of the file have velocities and times, and these help; "
+       "otherwise differences)"},
       [](InputOptions& o, const std::string& text) {
         o.velocities = choice_of("--velocities", text, velocity_source_names, VelocitySource::differences);
       },
