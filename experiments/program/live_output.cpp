@@ -20,8 +20,9 @@ const OptionList<LiveOutput>& live_output_options() {
   using O = LiveOutput;
   static const OptionList<O> list{
       {of_output(real_option({"--every", "SECONDS",
-                              "with a running simulation: write the results so far to --out every SECONDS. "
-                              "Files of other options appear at the end (default: 60)"},
+                              "with a running simulation: write the results so far to --out at most every "
+                              "SECONDS, and in at most 5% of the time. Files of other options appear at the "
+                              "end (default: 60)"},
                              &O::every, {0, 1e9})),
        of_output(flag_option("--continue",
                              "with a running simulation: if --out holds results with the same settings, "
