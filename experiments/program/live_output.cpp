@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 #include "experiments/output/text.h"
 #include "motions/base/input_error.h"
@@ -33,6 +34,20 @@ const OptionList<LiveOutput>& live_output_options() {
 }
 
 void check_live_output(const LiveOutput& live, const InputOptions& input, const Destinations& destinations) {
+  std::error_code error;
+  if (is_live(input) && destinations.out && !live.continues) {
+    if (destinations.replace && fs::exists(*destinations.out / "part2", error))
+      throw InputError("--replace",
+                       fmt::format("{} has parts of several runs; expected another directory, or "
+                                   "--continue, which adds a part",
+                                   destinations.out->string()));
+    if (!destinations.replace && fs::is_directory(*destinations.out, error) &&
+        !fs::is_empty(*destinations.out, error))
+      throw InputError("--out",
+                       fmt::format("{} holds files; --continue keeps them and adds a part, --replace "
+                                   "replaces an earlier result",
+                                   destinations.out->string()));
+  }
   const std::string_view option = live.continues ? "--continue" : live.every ? "--every" : "";
   if (option.empty()) return;
   if (!is_live(input))

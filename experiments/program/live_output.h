@@ -28,8 +28,9 @@ struct LiveOutput {
 /// Returns the options --every and --continue.
 [[nodiscard]] const OptionList<LiveOutput>& live_output_options();
 
-/// Throws InputError if --every or --continue is given without a running simulation or without --out, or if
-/// --continue comes with --replace.
+/// Throws InputError if --every or --continue is given without a running simulation or without --out, if
+/// --continue comes with --replace, or if --out holds files that the results of a running simulation would
+/// need to replace.
 void check_live_output(const LiveOutput& live, const InputOptions& input, const Destinations& destinations);
 
 /// Throws InputError with `reason` if an input is a running simulation and `option` is given.

@@ -442,7 +442,12 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
                                               options.inputs.front().string()));
     return Scene(std::move(*instance));
   }
-  Scene scene = load_necklaces(input, options.motion, 1, warn, options.tolerance, lone_frame);
+  InputOptions opened = input;
+  // Contacts of centres need no radii.
+  if (is_live(input) && input.radius == "auto" && options.distances.first() &&
+      !options.distances.between_surfaces && options.structures == std::vector<std::string>{"contacts"})
+    opened.radius = "1";
+  Scene scene = load_necklaces(opened, options.motion, 1, warn, options.tolerance, lone_frame);
   complete(scene, options, warn);
   return scene;
 }

@@ -84,6 +84,7 @@ class ImdProtocol {
   void read_handshake();
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] bool sends_cells() const { return sends(ImdPacket::cell); }
+  [[nodiscard]] bool sends_times() const { return sends(ImdPacket::time); }
 
   /// Reads up to the coordinates of frame 0 and returns the number of atoms, which all frames must have.
   /// Throws InputError if the simulation ends before, or if the number is not from 1 to `most_atoms`.

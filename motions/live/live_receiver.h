@@ -36,6 +36,7 @@ class LiveReceiver {
   [[nodiscard]] ImdProtocol& protocol() { return protocol_; }
   [[nodiscard]] std::size_t atom_count() const { return atom_count_; }
   [[nodiscard]] bool sends_cells() const { return protocol_.sends_cells(); }
+  [[nodiscard]] bool sends_times() const { return protocol_.sends_times(); }
 
   /// Waits for the next frame; the first call starts the thread. Returns false after the last frame, and at
   /// once if the end is requested (`live_end_requested`). Throws only what InterruptionCheck throws.

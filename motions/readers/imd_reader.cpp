@@ -92,6 +92,16 @@ class ImdFrames final : public AtomFrames {
     if (frame.asked && !frame_.velocities.empty()) copy(frame_.velocities, atoms, frame.velocities);
   }
 
+  [[nodiscard]] std::vector<std::string> notes() const override {
+    std::string lacks;
+    if (!time_step_ && !receiver_.sends_times())
+      lacks = fmt::format("no times ({} PS gives them)", "--dt"_arg);
+    if (!may_have_cell())
+      lacks +=
+          fmt::format("{}no periodic cell ({} A,B,C gives one)", lacks.empty() ? "" : " and ", "--cell"_arg);
+    return lacks.empty() ? std::vector<std::string>() : std::vector{"sends " + lacks};
+  }
+
   void close() override { receiver_.close(); }
   [[nodiscard]] bool is_cut() const override { return !cut_.empty(); }
   [[nodiscard]] std::optional<LiveState> live() const override { return receiver_.state(); }
@@ -110,7 +120,9 @@ class ImdFrames final : public AtomFrames {
       notes.push_back(
           fmt::format("{}: the simulation has ended after frame {}, before the last frame asked for", name_,
                       frames_ - 1));
-    if (const std::string note = steps_.note(); !note.empty()) notes.push_back(name_ + ": " + note);
+    if (const std::string note = steps_.note(); !note.empty())
+      notes.push_back(fmt::format("{}: {}{}", name_, note,
+                                  time_step_ ? fmt::format("; times by {} are wrong", "--dt"_arg) : ""));
     return notes;
   }
 

@@ -141,6 +141,13 @@ class Replicas:
         self._lines = [_lifetimes.Timeline(run) for run in runs]
         self.all = _lifetimes.figures([line.counts(0, line.length) for line in self._lines], in_order=False)
 
+    def __repr__(self):
+        def text(name):
+            least, most = self.all[f"{name}_lower"], self.all[f"{name}_upper"]
+            return f"{name} {self.all[name]:.4g}" + (f" (95%: {least:.4g} to {most:.4g})" if least == least else "")
+
+        return f"<kds contacts of {len(self.runs)} runs: {text('occupancy')}, {text('residence')} {self.unit}>"
+
     def correlation(self, lags):
         """Returns the table of :meth:`kds.Contacts.correlation` over all replicas, with intervals from their spread."""
         return _lifetimes.correlation(lags, self._lines, in_order=False)

@@ -39,7 +39,7 @@ def open(source, **options):
     The input is any that :func:`kds.run` takes, or the address of a running simulation (``docs/live.md``):
 
     >>> import kds
-    >>> simulation = kds.open("imd://localhost:8888", topology="md.gro", select="ca", radius=1.9)
+    >>> simulation = kds.open("imd://localhost:8888", topology="imdgroup.gro", select="ca", radius=1.9)
     >>> contacts = simulation.contacts(cutoff=8, until=20)  # doctest: +SKIP
 
     Nothing is read before a method is called. Each method opens a running simulation anew.
