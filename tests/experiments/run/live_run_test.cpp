@@ -209,6 +209,14 @@ TEST(LiveOptions, RefuseWhatNeedsAllFrames) {
   EXPECT_THAT(message(parse_run_options, {"a.xyz", "--every", "5", "--out", "b"}),
               HasSubstr("expected its address, imd://HOST:PORT"));
   EXPECT_EQ(message(parse_run_options, {live, "--every", "5", "--continue", "--out", "b"}), "");
+  const ScratchDirectory directory;
+  static_cast<void>(directory.file("a", "b"));
+  const std::string out = directory / "";
+  EXPECT_THAT(message(parse_run_options, {live, "--out", out}), HasSubstr("--continue keeps them"));
+  EXPECT_EQ(message(parse_run_options, {live, "--out", out, "--replace"}), "");
+  std::filesystem::create_directory(directory / "part2");
+  EXPECT_THAT(message(parse_run_options, {live, "--out", out, "--replace"}),
+              HasSubstr("has parts of several"));
 }
 
 TEST(LiveParts, StandBesideEachOther) {
