@@ -177,6 +177,7 @@ void bind_run(py::module_& module) {
       .def_property_readonly("radii", [](const RunHandle& run) { return run.scene().radii(); })
       .def_property_readonly("bead_count", [](const RunHandle& run) { return run.scene().bead_count(); })
       .def_property_readonly("frame_count", [](const RunHandle& run) { return run.scene().frame_count(); })
+      .def("leave", &RunHandle::leave)
       .def_property_readonly("is_live", [](const RunHandle& run) { return run.scene().is_live(); })
       .def("live_warnings", [](const RunHandle& run) { return run.scene().live_warnings(); })
       .def_property_readonly("dimension", [](const RunHandle& run) { return run.scene().dimension(); })

@@ -255,6 +255,11 @@ bool RunHandle::step() {
   return run_->run_step();
 }
 
+void RunHandle::leave() {
+  const Use use(*this);
+  if (scene_) scene_->end_frames();
+}
+
 bool RunHandle::next_event() {
   const Use use(*this);
   return run_->next_event();

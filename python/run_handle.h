@@ -63,6 +63,8 @@ class RunHandle {
   [[nodiscard]] bool next_event();
   void go_to(double time);
   void finish();
+  /// Leaves a running simulation; no further frame follows. Other runs stay as they are.
+  void leave();
   void audit();
   void insert(std::size_t structure, BeadId bead);
   void erase(std::size_t structure, BeadId bead);

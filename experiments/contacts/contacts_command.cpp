@@ -167,6 +167,9 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
   task.distances.check();
   if (task.certify) refuse_needless_certificate(task);
   check_live_output(options.live, task, options.destinations);
+  refuse_if_live(task,
+                 task.by == ContactElement::residue && !task.reading.topology && task.topologies.empty(),
+                 "--by", "residue: a simulation names no residues; expected a topology, or bead");
   for (const auto& [name, is_given] :
        {std::pair("--certify", task.certify), std::pair("--view", options.view.has_value())})
     refuse_if_live(task, is_given, name,

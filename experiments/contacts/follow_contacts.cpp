@@ -131,6 +131,8 @@ class ContactsRun {
     static_cast<InputOptions&>(options) = task_;
     run_steps(run_, options, [&](std::size_t frame) {
       if (frame == 0) add_built();
+      for (KineticStructure* const structure : run_.whole().structures())
+        structure->statistics.events_per_step.clear();  // they would grow with the number of steps
       at_frame(frame);
     });
     at_end();

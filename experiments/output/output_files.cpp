@@ -541,10 +541,33 @@ void commit_together(std::initializer_list<AtomicFiles*> results) {
     if (result != nullptr) result->take_places();
 }
 
+namespace {
+
+// Removes the earlier result that a killed run has moved aside.
+void remove_old(const fs::path& place, const std::string& subject) {
+  const fs::path old = place.string() + ".old";
+  std::error_code lost;
+  if (!fs::exists(fs::symlink_status(old, lost))) return;
+  std::string fault = "is not a directory";
+  if (fs::is_directory(fs::symlink_status(old, lost))) fault = ResultList(old).first_fault(old, lost);
+  if (fault.empty() && !fs::exists(place, lost)) fault = "holds the only result";
+  if (!fault.empty())
+    throw InputError(fmt::format("{}: {} is in the way: {}; move it", subject, old.string(), fault));
+  fs::remove_all(old, lost);
+}
+
+}  // namespace
+
+void check_no_writer(const fs::path& path, std::string_view option) {
+  const std::string subject = fmt::format("{} {}", option, path.string());
+  const PartFolder trial(place_of(path), subject);
+}
+
 void check_directory(const fs::path& path, std::string_view option, bool replace) {
   const std::string subject = fmt::format("{} {}", option, path.string());
   require_replaceable(place_of(path), subject, replace);
   const PartFolder trial(place_of(path), subject);
+  remove_old(place_of(path), subject);
 }
 
 void ensure_writable_file(const fs::path& path, std::string_view option) {

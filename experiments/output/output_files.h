@@ -51,6 +51,10 @@ void print_to_stdout(const std::string& text);
 /// InputError that names the option and the path, as AtomicFiles does.
 void check_directory(const std::filesystem::path& path, std::string_view option, bool replace);
 
+/// Throws InputError if another run writes to this directory of results now. Removes what a killed run has
+/// left beside it.
+void check_no_writer(const std::filesystem::path& path, std::string_view option);
+
 /// Checks that `path` can be written later. Leaves no trace. Throws as check_directory does.
 void ensure_writable_file(const std::filesystem::path& path, std::string_view option);
 

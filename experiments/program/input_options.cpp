@@ -306,7 +306,7 @@ const OptionList<InputOptions>& live_options() {
           "otherwise "
           "in frames (default: when the simulation ends)"},
          [](InputOptions& o, const std::string& text) {
-           o.reading.until = parse_real("--until", text, {0, 1e12});
+           o.reading.until = parse_real("--until", text, {-1e12, 1e12});
          },
          [](const InputOptions& o) { return o.reading.until ? fmt::format("{}", *o.reading.until) : ""; }},
         {{"--cell", "A,B,C",

@@ -79,6 +79,7 @@ std::optional<std::string> start_part(std::string_view file, const Json& setting
   const fs::path first = *destinations.out, result = first / file;
   std::error_code error;
   if (!fs::exists(result, error)) return std::nullopt;
+  check_no_writer(first, "--continue");
   std::ifstream stream(result, std::ios::binary);
   const Json earlier =
       parse_json(std::string{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()});

@@ -35,6 +35,13 @@ void check_live_options(const InputOptions& options) {
           "expected a file",
           file_names(options),
           words("kds run, contacts and compare", "kds.run, kds.contacts, kds.compare and kds.stream")));
+    if (std::ranges::count_if(options.inputs, is_live_address) > 1)
+      throw InputError("two inputs are running simulations; expected one, and files of one frame beside it");
+    const FrameRange& frames = options.reading.frames;
+    if (frames.last && *frames.last <= frames.first + frames.stride)
+      throw InputError(frames_argument(), fmt::format("{} is one frame; a run needs two", name_of(frames)));
+    if (options.reading.cell && !options.periodic)
+      throw InputError("--cell", fmt::format("has no meaning with {}", "--no-periodic"_arg));
     return;
   }
   const ReadOptions& reading = options.reading;
@@ -304,6 +311,10 @@ LiveInput open_live(const InputOptions& input, const std::function<void(const st
     throw InputError("--radius", fmt::format("auto is half of the longest bond of all frames, and {} is a "
                                              "running simulation; expected a length, element or file:PATH",
                                              file_names(input)));
+  if (input.radius.starts_with("element") && !input.reading.topology && input.topologies.empty())
+    throw InputError("--radius",
+                     fmt::format("{}: {} names no elements; expected {} FILE, which does, or a length",
+                                 input.radius, file_names(input), "--topology"_arg));
   InputOptions opened = input;
   opened.reading.velocities = input.velocities == VelocitySource::file;
   auto frames = std::make_unique<LiveFrames>(open_frames(opened, warn));

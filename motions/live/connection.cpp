@@ -138,6 +138,8 @@ std::size_t Connection::read(std::span<char> to) {
     if (stopped_ || live_end_requested()) throw BrokenConnection("ended on request");
     if (Clock::now() < deadline_) {
       const ssize_t got = recv(socket_, to.data(), to.size(), 0);
+      if (got == 0 && send_error_ != 0)  // the error was told when a word was sent, and is gone
+        throw BrokenConnection("the connection is broken: " + std::system_category().message(send_error_));
       if (got >= 0) return static_cast<std::size_t>(got);
       if (errno == EINTR) continue;
       if (errno != EAGAIN && errno != EWOULDBLOCK)
@@ -152,8 +154,11 @@ std::size_t Connection::read(std::span<char> to) {
 }
 
 void Connection::send(const std::array<char, 8>& word) {
-  // A socket that has no room for eight bytes belongs to a peer that reads nothing.
-  while (::send(socket_, word.data(), word.size(), MSG_NOSIGNAL) < 0 && errno == EINTR) {
+  // A socket that has no room for eight bytes belongs to a simulation that reads nothing.
+  while (::send(socket_, word.data(), word.size(), MSG_NOSIGNAL) < 0) {
+    if (errno == EINTR) continue;
+    if (errno != EAGAIN && errno != EWOULDBLOCK) send_error_ = errno;
+    return;
   }
 }
 

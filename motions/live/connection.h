@@ -49,6 +49,7 @@ class Connection final : public ByteSource {
   double patience_;
   Clock::time_point deadline_;
   std::atomic<bool> stopped_ = false;
+  int send_error_ = 0;  // errno of a word that could not be sent
 };
 
 }  // namespace kds

@@ -16,7 +16,12 @@ constexpr std::string_view live_scheme = "imd://";
 
 }  // namespace
 
-bool is_live_address(const std::filesystem::path& path) { return path.string().starts_with(live_scheme); }
+bool is_live_address(const std::filesystem::path& path) {
+  std::string start = path.string().substr(0, live_scheme.size());
+  for (char& letter : start)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return start == live_scheme;
+}
 
 LiveAddress parse_live_address(const std::filesystem::path& path) {
   const std::string text = path.string();
@@ -26,6 +31,7 @@ LiveAddress parse_live_address(const std::filesystem::path& path) {
   };
   if (!is_live_address(path)) throw refuse("is not the address of a simulation");
   const std::string rest = text.substr(live_scheme.size());
+  if (rest.find('@') != std::string::npos) throw refuse("has a user, which IMD does not know");
   const std::size_t colon = rest.rfind(':');
   if (colon == std::string::npos || rest.ends_with(']')) throw refuse("has no port");
   std::string host = rest.substr(0, colon);

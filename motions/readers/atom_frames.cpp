@@ -106,14 +106,8 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, co
   chosen.indices.resize(atom_count);
   std::iota(chosen.indices.begin(), chosen.indices.end(), std::size_t{0});
   chosen.bead_count = atom_count;
-  if (!options.topology) {
-    if (options.selection.needs_names()) throw needs_names("--select", file, "atoms");
-    if (options.chain) throw needs_names("--chain", file, "chains");
-    if (std::any_of(options.groups.begin(), options.groups.end(),
-                    [](const Selection& group) { return group.needs_names(); }))
-      throw needs_names("--groups", file, "atoms");
-    return chosen;
-  }
+  require_names(file, options);
+  if (!options.topology) return chosen;
   Topology topology = read_topology(*options.topology, options);
   const bool has_all = topology.atom_count == atom_count;
   if (!has_all && topology.selected.size() != atom_count)
@@ -200,6 +194,15 @@ class ChosenFrames final : public FrameReader {
 };
 
 }  // namespace
+
+void require_names(const std::string& file, const ReadOptions& options) {
+  if (options.topology) return;
+  if (options.selection.needs_names()) throw needs_names("--select", file, "atoms");
+  if (options.chain) throw needs_names("--chain", file, "chains");
+  if (std::any_of(options.groups.begin(), options.groups.end(),
+                  [](const Selection& group) { return group.needs_names(); }))
+    throw needs_names("--groups", file, "atoms");
+}
 
 FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptions& options,
                               std::unique_ptr<AtomFrames> frames) {

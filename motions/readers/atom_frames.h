@@ -65,6 +65,10 @@ class AtomFrames {
   [[nodiscard]] virtual std::optional<LiveState> live() const { return {}; }
 };
 
+/// Throws InputError if an option needs the names of atoms and there is no topology. `file` does not name
+/// atoms.
+void require_names(const std::string& file, const ReadOptions& options);
+
 /// Returns the frames of beads that `options` ask for: all atoms, or those that the selection takes from the
 /// topology. Throws InputError naming file and option if the topology has other atoms by their number or
 /// their ids, or if an option needs the names of atoms and there is no topology.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -25,7 +27,7 @@ class StepSpacing {
     if (!before) return;
     const auto between =
         static_cast<std::int64_t>(static_cast<std::uint64_t>(step) - static_cast<std::uint64_t>(*before));
-    if (!expected_) expected_ = between;
+    if (!expected_) expected_ = std::max<std::int64_t>(between, 1);
     if (between == *expected_ || unlike_++ > 0) return;
     first_unlike_ =
         fmt::format("frame {} is {} steps after the frame before, expected {}", frame, between, *expected_);
@@ -142,7 +144,7 @@ class ImdFrames final : public AtomFrames {
   // Whether frame k is known to lie after --until. The frame taken last is k or one before it.
   [[nodiscard]] bool is_late(std::size_t k) const {
     if (!until_ || (frames_ == 0 && !time_step_)) return false;
-    const double last = *until_ * (1 + 1e-9);  // multiples of a step of time are rounded
+    const double last = *until_ + 1e-9 * std::abs(*until_);  // multiples of a step of time are rounded
     if (time_step_ || !frame_.picoseconds) return static_cast<double>(k) * time_step_.value_or(1) > last;
     return frames_ == k + 1 ? *frame_.picoseconds > last : *frame_.picoseconds >= *until_;
   }
@@ -173,6 +175,7 @@ class ImdFrames final : public AtomFrames {
 }  // namespace
 
 std::unique_ptr<AtomFrames> open_imd(const std::filesystem::path& address, const ReadOptions& options) {
+  require_names(address.string(), options);  // before the simulation starts
   return std::make_unique<ImdFrames>(address, options);
 }
 

@@ -152,6 +152,7 @@ std::unique_ptr<const Scene> Scene::over(std::unique_ptr<FrameSource> frames) co
 
 void Scene::end_frames() {
   if (pushed_ != nullptr) pushed_->end();
+  if (live_ != nullptr) live_->close();
 }
 
 FrameStamp Scene::stamp(std::size_t frame) const {

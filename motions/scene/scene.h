@@ -75,7 +75,7 @@ class Scene {
   /// frame, like FrameQueue::push. Throws std::logic_error if the scene has frames of its own or has ended.
   void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt,
             const std::optional<Cell>& cell = std::nullopt);
-  /// Declares that no further frame follows.
+  /// Declares that no further frame follows. A live scene disconnects from the simulation.
   void end_frames();
   /// Returns the number of steps whose motion is known. The motion of every step is known, except in a scene
   /// of frames that are pushed or live. There, Hermite curves with differences are known one frame later, or

@@ -202,6 +202,7 @@ def contacts_of_parts(folder):
     Intervals take parts as independent and of similar length. They hold if each part is many times as long as the slowest
     motion of the system. Otherwise they are too narrow.
     """
+    folder = os.fspath(folder) if isinstance(folder, (str, os.PathLike)) else repr(folder)
     numbers = sorted(int(name[4:]) for name in (os.listdir(folder) if os.path.isdir(folder) else ())
                      if name.startswith("part") and name[4:].isdigit())
     parts = [folder, *(os.path.join(folder, f"part{number}") for number in numbers)]

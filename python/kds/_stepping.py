@@ -260,14 +260,17 @@ def stream(source, **options):
 def _stream_frames(source, options):
     run = KineticRun.__new__(KineticRun)
     run._open(source, {**options, "pull": True})
-    run._core.build()
-    yield StreamFrame(*run._core.stamp(0), run._core.take_events(), run, 0)
-    k = 0
-    while (events := run.step()) is not None:
-        k += 1
-        yield StreamFrame(*run._core.stamp(k), events, run, k)
-    run.finish()
-    warn(run._core.live_warnings())
+    try:
+        run._core.build()
+        yield StreamFrame(*run._core.stamp(0), run._core.take_events(), run, 0)
+        k = 0
+        while (events := run.step()) is not None:
+            k += 1
+            yield StreamFrame(*run._core.stamp(k), events, run, k)
+        run.finish()
+        warn(run._core.live_warnings())
+    finally:
+        run._core.leave()
 
 
 def _stream_pushed(source, start=None, stop=None, step=None, radius=None, necklaces=None, units=None, **options):
