@@ -163,7 +163,6 @@ bool ImdProtocol::begin() {
     std::array<char, energies_size - sizeof(std::int32_t)> skipped;
     read_whole(skipped);
     header = next_header(false);
-    if (!header) refuse("the connection has ended before a packet of coordinates");
   }
   if (!header || header->is(ImdPacket::disconnect)) return false;
   if (version_ == 3) read_before_coordinates(*header);

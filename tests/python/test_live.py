@@ -1,5 +1,6 @@
 """Running simulations as inputs: a server on the loopback address sends frames that are known."""
 
+import itertools
 import json
 import os
 import signal
@@ -145,6 +146,15 @@ class LiveRuns(unittest.TestCase):
         self.assertGreater(found.frame_count, 2)
         self.assertLess(found.frame_count, 1000)
 
+    def test_a_stream_that_is_left_disconnects(self):
+        simulation = Simulation(itertools.cycle(wandering()), pause=0.001)
+        with simulation as address:
+            frames = kds.stream(address, radius=1.2, structures=["contacts"])
+            kept = next(frames)
+            frames.close()
+        self.assertEqual(simulation.messages[-1][0], 0)
+        self.assertEqual(kept.frame, 0)
+
     def test_until_and_what_is_refused(self):
         positions = wandering()
         with Simulation(positions, version=3) as address:
@@ -152,6 +162,10 @@ class LiveRuns(unittest.TestCase):
         for options, line in ((dict(), "radius: auto is half"), (dict(radius=1, tolerance=0.1), "tolerance: needs")):
             with self.assertRaisesRegex(kds.InputError, line):
                 kds.run("imd://127.0.0.1:1", structures=["contacts"], patience=0.2, **options)
+        for options, line in ((dict(select="ca"), "select: imd://127.0.0.1:1 does not name"), (dict(start=0, stop=1), "one frame"),
+                              (dict(cell=[9, 9, 9], no_periodic=True), "cell: has no meaning")):
+            with self.assertRaisesRegex(kds.InputError, line):
+                kds.run("imd://127.0.0.1:1", radius=1, patience=0.2, **options)
         for function in (kds.collide, kds.voids, kds.trade, kds.conditions):
             with self.assertRaisesRegex(kds.InputError, "gives each frame once"):
                 function("imd://127.0.0.1:1", radius=1)
@@ -196,6 +210,20 @@ class ResultsOfTheProgram(unittest.TestCase):
             expected = kds.contacts_of_replicas(runs, cutoff=5, apart=1, times=0.002 * np.arange(len(runs[0])))
             self.assertAlmostEqual(found.all["residence"], expected.all["residence"], places=6)
             self.assertEqual([len(run.intervals) for run in found.runs], [len(run.intervals) for run in expected.runs])
+
+    def test_a_part_waits_for_the_part_before_it(self):
+        with tempfile.TemporaryDirectory() as scratch, Simulation(wandering(2000), pause=0.005) as address:
+            out = Path(scratch) / "out"
+            words = [PROGRAM, "contacts", address, "--cutoff", "5", "--out", str(out), "--every", "0", "--continue"]
+            with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as program:
+                while not (out / "contacts.json").exists() and program.poll() is None:
+                    time.sleep(0.01)
+                second = subprocess.run(words, capture_output=True, text=True, check=False)
+                program.send_signal(signal.SIGINT)
+            self.assertEqual(second.returncode, 2)
+            self.assertRegex(second.stderr, "another run writes to")
+            self.assertEqual(program.returncode, 0)
+            self.assertTrue(json.loads((out / "contacts.json").read_text())["complete"])
 
 
     def test_comparisons_count_all_frames(self):
