@@ -1,5 +1,5 @@
 #pragma once
-// What simulations send by the protocol IMD, and simulations on the loopback address that send it.
+// Bytes that simulations send by the protocol IMD, and simulations on the loopback address that send them.
 
 #include <netinet/in.h>
 #include <poll.h>
