@@ -1,7 +1,6 @@
 """Sends frames by IMD (version 2 or 3), as a simulation does that is followed while it runs.
 
-serve() is all that a generator of frames in Python needs. As a program it sends an .npz file (`positions`, and `velocities` and
-`box` if it has them), a trajectory that MDAnalysis reads, or a chain that it generates, and can misbehave in many ways.
+serve() is all that a generator of frames in Python needs. As a program it sends a chain that it generates.
 """
 
 import argparse
@@ -11,13 +10,10 @@ import select
 import socket
 import struct
 import subprocess
-import sys
-import time
 
 import numpy as np
 
 DISCONNECT, FCOORDS, GO, HANDSHAKE, TRATE, SESSION, TIME, BOX, VELOCITIES = 0, 2, 3, 4, 8, 10, 12, 13, 14
-NAMES = {DISCONNECT: "DISCONNECT", GO: "GO", TRATE: "TRATE"}
 
 
 def packet(kind, number, body=b""):
@@ -41,10 +37,10 @@ def packed(step, frame, version, order, dt):
     return b"".join(parts)
 
 
-def serve(frames, listener, version=2, order="<", dt=0.002, skip=(), delay=0, wrapped=False):
+def serve(frames, listener, version=2, order="<", dt=0.002):
     """Waits for one client at `listener`, a socket of listen(), and sends it the frames until it leaves. packed() says what a
-    frame is; bytes are sent as they are. Steps in `skip` are left out. `order` is the byte order, "<" or ">"; `dt` is in
-    picoseconds; `delay` is in seconds. Returns the number of frames sent and the client's messages, (type, number)."""
+    frame is; bytes are sent as they are. `order` is the byte order, "<" or ">"; `dt` is in picoseconds. Returns the number of
+    frames sent and the client's messages, (type, number)."""
     client, rate, messages, sent = listener.accept()[0], 1, [], 0
     client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     frames = iter(frames)
@@ -53,7 +49,7 @@ def serve(frames, listener, version=2, order="<", dt=0.002, skip=(), delay=0, wr
         client.sendall(struct.pack(">i", HANDSHAKE) + struct.pack(order + "i", version))
         if version == 3:
             has = [isinstance(first, tuple) and first[k] is not None for k in (1, 2)]
-            client.sendall(packet(SESSION, 7, bytes([1, 0, has[1], 1, wrapped, has[0], 0])))
+            client.sendall(packet(SESSION, 7, bytes([1, 0, has[1], 1, 0, has[0], 0])))
         for step, frame in enumerate(itertools.chain([first], frames)):
             while not messages or select.select([client], [], [], 0)[0]:  # the first message is GO
                 head = client.recv(8, socket.MSG_WAITALL)
@@ -66,10 +62,9 @@ def serve(frames, listener, version=2, order="<", dt=0.002, skip=(), delay=0, wr
                 rate = max(number, 1) if kind == TRATE else rate
             if isinstance(frame, bytes):
                 client.sendall(frame)
-            elif step not in skip and step % rate == 0:
+            elif step % rate == 0:
                 client.sendall(packed(step, frame, version, order, dt))
                 sent += 1
-                time.sleep(delay)
         client.shutdown(socket.SHUT_WR)
         while head := client.recv(8, socket.MSG_WAITALL):  # unread messages would turn the end into a reset
             messages += [struct.unpack(">ii", head)] if len(head) == 8 else []
@@ -111,62 +106,17 @@ def chain(atoms, seed=1):
         yield places + swings * np.sin(angles), 25 * swings * np.cos(angles), None
 
 
-def read(path, topology=None):
-    """Generates the frames of an .npz file or of a trajectory that MDAnalysis reads."""
-    if path.endswith(".npz"):
-        arrays = dict(np.load(path))
-        if "box" in arrays:
-            arrays["box"] = np.broadcast_to(arrays["box"], (len(arrays["positions"]), 3, 3))
-        parts = [arrays.get(name, itertools.repeat(None)) for name in ("positions", "velocities", "box")]
-        yield from zip(*parts)
-        return
-    import MDAnalysis
-
-    for frame in MDAnalysis.Universe(topology or path, path).trajectory:
-        yield frame.positions, frame.velocities if frame.has_velocities else None, frame.triclinic_dimensions
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", nargs="?", help=".npz or a trajectory (default: a generated chain)")
-    parser.add_argument("--topology", help="names the atoms of a trajectory")
-    parser.add_argument("--atoms", type=int, default=100, help="atoms of the generated chain")
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--atoms", type=int, default=100, help="atoms of the chain (default: 100)")
+    parser.add_argument("--frames", type=int, default=100, help="number of frames (default: 100)")
     parser.add_argument("--port", type=int, default=0, help="port (default: a free one, which is printed)")
     parser.add_argument("--version", type=int, choices=(2, 3), default=2)
     parser.add_argument("--big-endian", action="store_true")
-    parser.add_argument("--wrapped", action="store_true", help="version 3: tell that coordinates are wrapped")
-    parser.add_argument("--dt", type=float, default=0.002, help="version 3: picoseconds of a step")
-    parser.add_argument("--delay", type=float, default=0, help="seconds to wait after each frame")
-    parser.add_argument("--frames", type=int, help="number of frames (default: those of the file; 100 of the chain)")
-    parser.add_argument("--forever", action="store_true", help="never end: the file's frames again and again")
-    parser.add_argument("--drop", default="", metavar="STEPS", help="leave out these steps: 3,4,9")
-    parser.add_argument("--cut", type=int, metavar="BYTES", help="send BYTES of one more frame, and close")
-    parser.add_argument("--silent-after", type=int, metavar="N", help="send N frames, then nothing, and stay connected")
-    parser.add_argument("--disconnect", action="store_true", help="send DISCONNECT at the end")
     given = parser.parse_args()
-    if given.cut is not None and given.file and not (given.frames or given.forever):
-        parser.error("--cut of a file needs --frames, fewer than the file has")
-    order = ">" if given.big_endian else "<"
-    count = given.silent_after or given.frames or (None if given.file or given.forever else 100)
-
-    def behaved():
-        frames = read(given.file, given.topology) if given.file else chain(given.atoms)
-        frames = itertools.cycle(frames) if given.forever and given.file else frames
-        yield from itertools.islice(frames, count)
-        if given.cut is not None:
-            yield packed(count, next(frames), given.version, order, given.dt)[:given.cut]
-        if given.disconnect:
-            yield packet(DISCONNECT, 0)
-        while given.silent_after:  # until the client leaves
-            time.sleep(0.05)
-            yield b""
-
     listener = listen(given.port)
     print(listener.getsockname()[1], flush=True)
-    skip = {int(step) for step in given.drop.split(",") if step}
-    sent, messages = serve(behaved(), listener, given.version, order, given.dt, skip, given.delay, given.wrapped)
-    words = [f"{NAMES.get(kind, kind)}{f' {number}' if kind == TRATE else ''}" for kind, number in messages]
-    print(f"{sent} frames sent; the client said {', '.join(words)}", file=sys.stderr)
+    serve(itertools.islice(chain(given.atoms), given.frames), listener, given.version, ">" if given.big_endian else "<")
 
 
 if __name__ == "__main__":
