@@ -115,9 +115,13 @@ Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, const Pa
 template <int D>
 void Contacts<D>::find_pairs(typename NearBalls<D>::Resting resting, bool list_overlapping,
                              PairsOfImages& found) {
-  const Curves<D> curves = motion_.curves();
-  near_balls_.find(curves, simulator().kernel(), resting, list_overlapping, shifts_, found);
-  if (shifts_.size() > 1) shifted_.set(curves, shifts_);
+  near_balls_.find(motion_.curves(), simulator().kernel(), resting, list_overlapping, shifts_, found);
+  leave_out_absent(found);
+}
+
+template <int D>
+void Contacts<D>::leave_out_absent(PairsOfImages& found) {
+  if (shifts_.size() > 1) shifted_.set(motion_.curves(), shifts_);
   const std::span<const char> absent = present().absent();
   if (absent.empty()) return;
   const auto names_absent = [absent](const ImagePair& p) {
@@ -370,7 +374,9 @@ void Contacts<D>::find_of(std::span<const BeadId> beads) {
     return marks[p.pair.first] == 0 && marks[p.pair.second] == 0;
   };
   PairsOfImages found;
-  find_pairs(NearBalls<D>::Resting::looked_at, true, found);
+  near_balls_.find_of(motion_.curves(), beads, simulator().kernel(), NearBalls<D>::Resting::looked_at, true,
+                      shifts_, found);
+  leave_out_absent(found);
   std::erase_if(found.unclear, names_none);
   std::erase_if(found.overlapping, names_none);
   at_once_.clear();

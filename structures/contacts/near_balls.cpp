@@ -26,6 +26,15 @@ void NearBalls<D>::find(const Curves<D>& curves, Kernel kernel, Resting resting,
   found.proved = family_.size() + of_blocks_.proved_apart;
 }
 
+template <int D>
+void NearBalls<D>::find_of(const Curves<D>& curves, std::span<const BeadId> beads, Kernel kernel,
+                           Resting resting, bool list_overlapping, ShiftNumbers<D>& shifts,
+                           PairsOfImages& found) {
+  if (curves.cell() == nullptr || kernel == Kernel::exact)
+    return find(curves, kernel, resting, list_overlapping, shifts, found);
+  images_.find_of(curves, beads, list_overlapping, shifts, found);
+}
+
 template class NearBalls<2>;
 template class NearBalls<3>;
 

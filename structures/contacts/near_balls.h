@@ -27,6 +27,10 @@ class NearBalls {
   /// much as listing all pairs.
   void find(const Curves<Dimension>& curves, Kernel kernel, Resting resting, bool list_overlapping,
             ShiftNumbers<Dimension>& shifts, PairsOfImages& found);
+  /// Finds at least the pairs of these beads, after only their curves have changed since the last call in the
+  /// same step. Takes no longer than `find`.
+  void find_of(const Curves<Dimension>& curves, std::span<const BeadId> beads, Kernel kernel, Resting resting,
+               bool list_overlapping, ShiftNumbers<Dimension>& shifts, PairsOfImages& found);
 
  private:
   MovingFamily<Dimension> family_;

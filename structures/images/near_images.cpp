@@ -40,6 +40,22 @@ void restrict_curve(double* points, std::size_t row, std::size_t columns, double
   if (to < 1) halve((to - from) / (1 - from), false);
 }
 
+/// Calls `visit` with all shifts from -most to most.
+template <std::size_t N, class Visit>
+void for_each_shift(const std::array<std::int32_t, N>& most, const Visit& visit) {
+  std::array<std::int32_t, N> shift;
+  for (std::size_t a = 0; a < N; ++a) shift[a] = -most[a];
+  for (;;) {
+    visit(shift);
+    std::size_t a = N;
+    while (a-- > 0) {
+      if (++shift[a] <= most[a]) break;
+      shift[a] = -most[a];
+    }
+    if (a == static_cast<std::size_t>(-1)) return;
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -92,41 +108,52 @@ void NearImages<D>::lay_lattice(const Curves<D>& curves) {
 }
 
 template <int D>
+auto NearImages<D>::measure_bead(const Curves<D>& curves, BeadId bead) -> Measured {
+  Measured found;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  const auto point = [&](std::size_t k) {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    for (int axis = 0; axis < D; ++axis) at[axis] = curves.coordinate(bead, static_cast<int>(k), axis);
+    return at;
+  };
+  for (std::size_t k = 0; k < row_; ++k) {
+    const Eigen::Vector3d at = point(k);
+    found.farthest = std::max(found.farthest, at.cwiseAbs().maxCoeff());
+    mean += at / static_cast<double>(row_);
+    found.radius = std::max(found.radius, curves.radius(bead, static_cast<int>(k)));
+  }
+  const Eigen::Vector3d share = lattice_.inverse * mean;
+  for (std::size_t a = 0; a < dimension; ++a) {
+    if (!lattice_.periodic[a]) continue;
+    const double home = std::floor(share[static_cast<Eigen::Index>(a)]);
+    if (!(std::abs(home) < ShiftNumbers<D>::most / 8))
+      throw InputError(
+          fmt::format("bead {} is more than 131,072 cells away from the origin; expected fewer", bead));
+    homes_[bead][a] = static_cast<std::int32_t>(home);
+  }
+  const Eigen::Vector3d first = point(0) - vector_of(homes_[bead], lattice_.controls[0]);
+  for (std::size_t k = 1; k < row_; ++k)
+    found.move =
+        std::max(found.move, (point(k) - vector_of(homes_[bead], lattice_.controls[k]) - first).norm());
+  return found;
+}
+
+template <int D>
 void NearImages<D>::measure(const Curves<D>& curves) {
   homes_.assign(curves.bead_count(), {});
-  radius_ = 0;
-  double squares = 0, farthest = 0;
-  std::vector<Eigen::Vector3d> points(row_, Eigen::Vector3d::Zero());
+  radius_ = farthest_ = 0;
+  double squares = 0;
   std::size_t asked = 0;
   for (BeadId bead = 0; bead < curves.bead_count(); ++bead) {
     if (groups_of(bead) == 0) continue;
     ++asked;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (std::size_t k = 0; k < row_; ++k) {
-      for (int axis = 0; axis < D; ++axis) {
-        points[k][axis] = curves.coordinate(bead, static_cast<int>(k), axis);
-        farthest = std::max(farthest, std::abs(points[k][axis]));
-      }
-      mean += points[k] / static_cast<double>(row_);
-      radius_ = std::max(radius_, curves.radius(bead, static_cast<int>(k)));
-    }
-    const Eigen::Vector3d share = lattice_.inverse * mean;
-    for (std::size_t a = 0; a < dimension; ++a) {
-      if (!lattice_.periodic[a]) continue;
-      const double home = std::floor(share[static_cast<Eigen::Index>(a)]);
-      if (!(std::abs(home) < ShiftNumbers<D>::most / 8))
-        throw InputError(
-            fmt::format("bead {} is more than 131,072 cells away from the origin; expected fewer", bead));
-      homes_[bead][a] = static_cast<std::int32_t>(home);
-    }
-    double move = 0;
-    const Eigen::Vector3d first = points[0] - vector_of(homes_[bead], lattice_.controls[0]);
-    for (std::size_t k = 1; k < row_; ++k)
-      move = std::max(move, (points[k] - vector_of(homes_[bead], lattice_.controls[k]) - first).norm());
-    squares += move * move;
+    const Measured of_bead = measure_bead(curves, bead);
+    farthest_ = std::max(farthest_, of_bead.farthest);
+    radius_ = std::max(radius_, of_bead.radius);
+    squares += of_bead.move * of_bead.move;
   }
   rms_move_ = std::sqrt(squares / std::max<double>(1, static_cast<double>(asked)));
-  largest_ = 8 * (largest_ + farthest + radius_);
+  largest_ = 8 * (largest_ + farthest_ + radius_);
   margin_ = 0x1p-44 * largest_;
 }
 
@@ -146,6 +173,23 @@ double NearImages<D>::stray_wanted() const {
 }
 
 template <int D>
+void NearImages<D>::set_points(const Curves<D>& curves, BeadId bead, double from, double to) {
+  double* const points = &points_[bead * row_ * dimension];
+  for (std::size_t k = 0; k < row_; ++k) {
+    const Eigen::Vector3d home = vector_of(homes_[bead], lattice_.controls[k]);
+    for (std::size_t axis = 0; axis < dimension; ++axis)
+      points[k * dimension + axis] = curves.coordinate(bead, static_cast<int>(k), static_cast<int>(axis)) -
+                                     home[static_cast<Eigen::Index>(axis)];
+  }
+  double* const radii = &radii_[bead * row_];
+  std::copy_n(curves.radii(bead), row_, radii);
+  if (from > 0 || to < 1) {
+    restrict_curve(points, row_, dimension, from, to);
+    restrict_curve(radii, row_, 1, from, to);
+  }
+}
+
+template <int D>
 void NearImages<D>::enter_piece(const Curves<D>& curves, double from, double to, double most_stray) {
   const std::size_t beads = curves.bead_count();
   points_.resize(beads * row_ * dimension);
@@ -153,25 +197,17 @@ void NearImages<D>::enter_piece(const Curves<D>& curves, double from, double to,
   piece_ = lattice_.controls;
   if (from > 0 || to < 1) restrict_curve(piece_.front().data(), row_, 9, from, to);
   swept_.clear();
+  places_.resize(beads);
   for (BeadId bead = 0; bead < beads; ++bead) {
     if (groups_of(bead) == 0) continue;
-    double* const points = &points_[bead * row_ * dimension];
-    for (std::size_t k = 0; k < row_; ++k) {
-      const Eigen::Vector3d home = vector_of(homes_[bead], lattice_.controls[k]);
-      for (std::size_t axis = 0; axis < dimension; ++axis)
-        points[k * dimension + axis] = curves.coordinate(bead, static_cast<int>(k), static_cast<int>(axis)) -
-                                       home[static_cast<Eigen::Index>(axis)];
-    }
-    double* const radii = &radii_[bead * row_];
-    std::copy_n(curves.radii(bead), row_, radii);
-    if (from > 0 || to < 1) {
-      restrict_curve(points, row_, dimension, from, to);
-      restrict_curve(radii, row_, 1, from, to);
-    }
+    set_points(curves, bead, from, to);
+    const double* const points = &points_[bead * row_ * dimension];
+    const double* const radii = &radii_[bead * row_];
+    places_[bead] = static_cast<std::uint32_t>(swept_.size());
     const double stray = ball_around(points).second;
     const double radius = *std::max_element(radii, radii + row_);
     if (stray <= most_stray) {
-      add_swept(bead, points, radius);
+      swept_.push_back(swept_of(bead, points, radius));
       continue;
     }
     constexpr double most_parts = 1024;  // a bead that jumps farther makes the bins wider
@@ -181,7 +217,7 @@ void NearImages<D>::enter_piece(const Curves<D>& curves, double from, double to,
       std::copy_n(points, part.size(), part.begin());
       restrict_curve(part.data(), row_, dimension, static_cast<double>(p) / static_cast<double>(parts),
                      static_cast<double>(p + 1) / static_cast<double>(parts));
-      add_swept(bead, part.data(), radius);
+      swept_.push_back(swept_of(bead, part.data(), radius));
     }
     in_parts_ = true;
   }
@@ -211,10 +247,9 @@ auto NearImages<D>::ball_around(const double* points) const -> std::pair<Point, 
 }
 
 template <int D>
-void NearImages<D>::add_swept(BeadId bead, const double* points, double radius) {
+auto NearImages<D>::swept_of(BeadId bead, const double* points, double radius) const -> Swept {
   const auto [center, stray] = ball_around(points);
-  Swept& swept =
-      swept_.emplace_back(Swept{center, radius + stray + margin_, bead, groups_of(bead), homes_[bead]});
+  Swept swept{center, radius + stray + margin_, bead, groups_of(bead), homes_[bead]};
   for (std::size_t a = 0; a < dimension; ++a) {
     if (!lattice_.periodic[a]) continue;
     const double away = std::floor(coordinate_of(swept.center, a));
@@ -227,6 +262,17 @@ void NearImages<D>::add_swept(BeadId bead, const double* points, double radius) 
       swept.center[axis] -=
           away * lattice_.middle(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(a));
   }
+  return swept;
+}
+
+template <int D>
+auto NearImages<D>::bin_of(const Swept& swept) const -> Shift {
+  Shift bin{};
+  for (std::size_t a = 0; a < dimension; ++a) {
+    const double at = width_[a] > 0 ? (coordinate_of(swept.center, a) - low_[a]) / width_[a] : 0;
+    bin[a] = static_cast<std::int32_t>(std::clamp(std::floor(at), 0.0, bins_[a] - 1.0));
+  }
+  return bin;
 }
 
 template <int D>
@@ -249,6 +295,7 @@ void NearImages<D>::fill_grid() {
   double spread = 0;
   for (int a = 0; a < D; ++a)
     if (lattice_.periodic[static_cast<std::size_t>(a)]) spread += lattice_.middle.col(a).norm();
+  grid_reach_ = reach;
   wobble_ = lattice_.strain * (2 * reach + spread) / (1 - lattice_.strain);
   const double width = 2 * reach + wobble_;
   std::array<double, dimension> heights{};  // between cells of the lattice, or one unit
@@ -284,12 +331,10 @@ void NearImages<D>::fill_grid() {
   groups_.assign(bins, 0);
   in_bins_.resize(swept_.size());
   for (std::size_t i = 0; i < swept_.size(); ++i) {
+    const Shift place = bin_of(swept_[i]);
     std::size_t bin = 0;
-    for (std::size_t a = 0; a < dimension; ++a) {
-      const double at = width_[a] > 0 ? (coordinate_of(swept_[i].center, a) - low_[a]) / width_[a] : 0;
-      const auto index = static_cast<std::int32_t>(std::clamp(std::floor(at), 0.0, bins_[a] - 1.0));
-      bin = bin * static_cast<std::size_t>(bins_[a]) + static_cast<std::size_t>(index);
-    }
+    for (std::size_t a = 0; a < dimension; ++a)
+      bin = bin * static_cast<std::size_t>(bins_[a]) + static_cast<std::size_t>(place[a]);
     in_bins_[i] = static_cast<std::uint32_t>(bin);
     ++begins_[bin + 1];
     groups_[bin] |= swept_[i].groups;
@@ -305,16 +350,9 @@ void NearImages<D>::fill_grid() {
 template <int D>
 void NearImages<D>::compare_bins(bool list_overlapping, ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
   std::vector<Shift> offsets;
-  Shift offset{};
-  const auto fill = [&](const auto& self, std::size_t a) -> void {
-    if (a == dimension) {
-      if (offset >= Shift{}) offsets.push_back(offset);
-      return;
-    }
-    for (offset[a] = -reach_[a]; offset[a] <= reach_[a]; ++offset[a]) self(self, a + 1);
-    offset[a] = 0;
-  };
-  fill(fill, 0);
+  for_each_shift(reach_, [&](const Shift& offset) {
+    if (offset >= Shift{}) offsets.push_back(offset);
+  });
   Shift bin{};
   for (std::size_t at = 0; at + 1 < begins_.size(); ++at) {
     InterruptionCheck::ask();
@@ -329,23 +367,39 @@ void NearImages<D>::compare_bins(bool list_overlapping, ShiftNumbers<D>& shifts,
 }
 
 template <int D>
-void NearImages<D>::compare(const Shift& bin, std::size_t at, const Shift& by, bool list_overlapping,
-                            ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
-  Shift image{};
-  std::size_t other_at = 0;
-  Point moved{};
+auto NearImages<D>::neighbour(const Shift& bin, const Shift& by) const
+    -> std::optional<std::pair<std::size_t, Shift>> {
+  std::pair<std::size_t, Shift> found{};
+  auto& [at, image] = found;
   for (std::size_t a = 0; a < dimension; ++a) {
     std::int32_t index = bin[a] + by[a];
     if (index < 0 || index >= bins_[a]) {
-      if (!lattice_.periodic[a]) return;
+      if (!lattice_.periodic[a]) return std::nullopt;
       image[a] = index < 0 ? -((bins_[a] - 1 - index) / bins_[a]) : index / bins_[a];
       index -= image[a] * bins_[a];
-      for (std::size_t axis = 0; axis < dimension; ++axis)
-        moved[axis] +=
-            image[a] * lattice_.middle(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(a));
     }
-    other_at = other_at * static_cast<std::size_t>(bins_[a]) + static_cast<std::size_t>(index);
+    at = at * static_cast<std::size_t>(bins_[a]) + static_cast<std::size_t>(index);
   }
+  return found;
+}
+
+template <int D>
+auto NearImages<D>::vector_to(const Shift& image) const -> Point {
+  Point vector{};
+  for (std::size_t a = 0; a < dimension; ++a)
+    for (std::size_t axis = 0; image[a] != 0 && axis < dimension; ++axis)
+      vector[axis] +=
+          image[a] * lattice_.middle(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(a));
+  return vector;
+}
+
+template <int D>
+void NearImages<D>::compare(const Shift& bin, std::size_t at, const Shift& by, bool list_overlapping,
+                            ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
+  const auto other_bin = neighbour(bin, by);
+  if (!other_bin) return;
+  const auto& [other_at, image] = *other_bin;
+  const Point moved = vector_to(image);
   if (begins_[other_at] == begins_[other_at + 1] || !PairsAsked::joins(groups_[at], groups_[other_at]))
     return;
   const bool within = is_zero(by);
@@ -448,7 +502,9 @@ void NearImages<D>::find(const Curves<D>& curves, bool list_overlapping, ShiftNu
   lay_lattice(curves);
   if (lattice_.strain > most_strain) return find_by_boxes(curves, shifts, pairs);
   measure(curves);
-  const double wanted = stray_wanted();
+  const double wanted = stray_ = stray_wanted();
+  has_grid_ = false;
+  forget_moved();
   const auto pieces = static_cast<std::size_t>(std::clamp(std::ceil(0.5 * rms_move_ / wanted), 1.0, 1024.0));
   in_parts_ = false;
   is_whole_step_ = pieces == 1;
@@ -465,7 +521,81 @@ void NearImages<D>::find(const Curves<D>& curves, bool list_overlapping, ShiftNu
       found->erase(std::unique(found->begin(), found->end()), found->end());
     }
   }
-  pairs.may_repeat = (1 - lattice_.strain) * lattice_.shortest <= 4 * (1 + 0x1p-20) * radius_ + margin_;
+  may_repeat_ = (1 - lattice_.strain) * lattice_.shortest <= 4 * (1 + 0x1p-20) * radius_ + margin_;
+  pairs.may_repeat = may_repeat_;
+  has_grid_ = is_whole_step_ && !in_parts_;
+}
+
+template <int D>
+void NearImages<D>::find_of(const Curves<D>& curves, std::span<const BeadId> beads, bool list_overlapping,
+                            ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
+  for (const BeadId bead : beads)
+    if (!has_grid_ || !replace(curves, bead)) return find(curves, list_overlapping, shifts, pairs);
+  pairs.clear();
+  pairs.may_repeat = may_repeat_;
+  constexpr std::size_t most_moved = 64;
+  if (moved_.size() > most_moved) {
+    fill_grid();
+    forget_moved();
+  }
+  for (std::size_t i = 0; i < beads.size(); ++i)
+    compare_bead(beads[i], beads.first(i), list_overlapping, shifts, pairs);
+}
+
+template <int D>
+void NearImages<D>::forget_moved() {
+  moved_.clear();
+  is_moved_.assign(homes_.size(), 0);
+}
+
+template <int D>
+bool NearImages<D>::replace(const Curves<D>& curves, BeadId bead) {
+  if (groups_of(bead) == 0) return true;
+  const Measured found = measure_bead(curves, bead);
+  if (found.farthest > farthest_ || found.radius > radius_) return false;
+  set_points(curves, bead, 0, 1);
+  const double* const points = &points_[bead * row_ * dimension];
+  const Swept swept = swept_of(bead, points, found.radius);
+  if (swept.reach > grid_reach_ || ball_around(points).second > stray_) return false;
+  swept_[places_[bead]] = swept;
+  if (is_moved_[bead] == 0) moved_.push_back(bead);
+  is_moved_[bead] = 1;
+  return true;
+}
+
+template <int D>
+void NearImages<D>::compare_bead(BeadId bead, std::span<const BeadId> done, bool list_overlapping,
+                                 ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
+  if (groups_of(bead) == 0) return;
+  const Swept& one = swept_[places_[bead]];
+  const auto compare_with = [&](const Swept& other, const Shift& image) {
+    if (other.bead == bead || std::ranges::find(done, other.bead) != done.end()) return;
+    const Point moved = vector_to(image);
+    double square = 0;
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      const double d = other.center[axis] - (one.center[axis] - moved[axis]);
+      square += d * d;
+    }
+    const double reach = one.reach + (is_zero(image) ? 0 : wobble_) + other.reach;
+    if (square <= reach * reach && PairsAsked::joins(one.groups, other.groups))
+      look_at(one, other, image, list_overlapping, shifts, pairs);
+  };
+  // In the grid, apart from beads that have moved.
+  const Shift bin = bin_of(one);
+  for_each_shift(reach_, [&](const Shift& by) {
+    const auto other_bin = neighbour(bin, by);
+    if (!other_bin) return;
+    const auto& [at, image] = *other_bin;
+    for (std::uint32_t j = begins_[at]; j < begins_[at + 1]; ++j)
+      if (is_moved_[sorted_[j].bead] == 0) compare_with(sorted_[j], image);
+  });
+  // The images that bins within reach can lie in.
+  Shift most{};
+  for (std::size_t a = 0; a < dimension; ++a)
+    if (lattice_.periodic[a]) most[a] = (reach_[a] + bins_[a] - 1) / bins_[a];
+  for_each_shift(most, [&](const Shift& image) {
+    for (const BeadId other : moved_) compare_with(swept_[places_[other]], image);
+  });
 }
 
 // With d_k the differences of two beads' control points and R_k the vectors at these, an image t meets at
@@ -476,6 +606,7 @@ template <int D>
 void NearImages<D>::find_by_boxes(const Curves<D>& curves, ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
   pairs.clear();
   pairs.may_repeat = true;
+  has_grid_ = false;
   row_ = static_cast<std::size_t>(curves.own_degree()) + 1;
   lay_lattice(curves);
   measure(curves);

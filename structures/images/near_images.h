@@ -28,6 +28,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -72,6 +74,11 @@ class NearImages {
   /// numbers.
   void find(const Curves<Dimension>& curves, bool list_overlapping, ShiftNumbers<Dimension>& shifts,
             PairsOfImages& pairs);
+  /// Finds the pairs of these beads after only their curves have changed since the last call, which must have
+  /// been in the same step. May find other pairs too. Costs as much as their neighbours, unless the beads
+  /// move much farther than all beads did at the last call of `find`; then it costs as much as `find`.
+  void find_of(const Curves<Dimension>& curves, std::span<const BeadId> beads, bool list_overlapping,
+               ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
   /// Tests all pairs: lists each image whose box of fractional coordinates comes within reach. For the kernel
   /// `exact`. Takes quadratic time. Throws InputError if the cell changes by almost its own size.
   void find_by_boxes(const Curves<Dimension>& curves, ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
@@ -104,15 +111,36 @@ class NearImages {
   void lay_lattice(const Curves<Dimension>& curves);
   /// Finds homes and sizes.
   void measure(const Curves<Dimension>& curves);
+  /// How far a bead moves in the step, its largest coordinate by absolute value, and its largest radius.
+  struct Measured {
+    double move = 0, farthest = 0, radius = 0;
+  };
+  /// Measures a bead and finds its home.
+  [[nodiscard]] Measured measure_bead(const Curves<Dimension>& curves, BeadId bead);
   [[nodiscard]] double stray_wanted() const;
   void enter_piece(const Curves<Dimension>& curves, double from, double to, double most_stray);
   /// Returns a ball around control points.
   [[nodiscard]] std::pair<Point, double> ball_around(const double* points) const;
-  void add_swept(BeadId bead, const double* points, double radius);
+  [[nodiscard]] Swept swept_of(BeadId bead, const double* points, double radius) const;
+  /// Sets the control points of a bead in a piece of the step.
+  void set_points(const Curves<Dimension>& curves, BeadId bead, double from, double to);
   void fill_grid();
+  /// Returns the bin of a swept ball.
+  [[nodiscard]] Shift bin_of(const Swept& swept) const;
+  /// Puts the changed curve of a bead in place of its old one. Returns false if the grid does not suit it.
+  [[nodiscard]] bool replace(const Curves<Dimension>& curves, BeadId bead);
+  void forget_moved();
+  /// Compares a bead with all others but those that are `done`.
+  void compare_bead(BeadId bead, std::span<const BeadId> done, bool list_overlapping,
+                    ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
   void compare_bins(bool list_overlapping, ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
   void compare(const Shift& bin, std::size_t at, const Shift& by, bool list_overlapping,
                ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
+  /// Returns the bin `by` bins away, and the image of the lattice that it lies in; nothing beyond the grid.
+  [[nodiscard]] std::optional<std::pair<std::size_t, Shift>> neighbour(const Shift& bin,
+                                                                       const Shift& by) const;
+  /// Returns the vector by which an image of the lattice is moved, in the middle of the step.
+  [[nodiscard]] Point vector_to(const Shift& image) const;
   void look_at(const Swept& one, const Swept& other, const Shift& image, bool list_overlapping,
                ShiftNumbers<Dimension>& shifts, PairsOfImages& pairs);
   /// Adds a pair with all shifts in a box.
@@ -141,6 +169,7 @@ class NearImages {
   double margin_ = 0;         // granted to each reach for rounding
   double radius_ = 0;         // largest
   double rms_move_ = 0;       // of the beads in the step
+  double farthest_ = 0;       // bounds all coordinates
   std::vector<Shift> homes_;  // of each bead: its cell of the lattice in the middle of the step
 
   // The present piece of the step.
@@ -150,6 +179,14 @@ class NearImages {
   bool in_parts_ = false;               // some bead has several swept balls
   bool is_whole_step_ = true;           // the step is not cut
   double wobble_ = 0;                   // added to the reach of images
+  double grid_reach_ = 0;               // largest of the swept balls that the grid is laid for
+  double stray_ = 0;                    // largest stray of a swept ball
+  bool may_repeat_ = false;             // as PairsOfImages
+  bool has_grid_ = false;               // the grid is that of the whole step, with a swept ball for each bead
+  std::vector<std::uint32_t> places_;   // of each bead in `swept_`
+  // Beads whose curves have changed since the grid was filled, and a mark for each of them.
+  std::vector<BeadId> moved_;
+  std::vector<char> is_moved_;
   // The grid along the lattice's vectors: number of bins, bins within reach, first corner and width of a bin
   // in coordinates of the lattice, and where each bin begins in `sorted_`.
   Shift bins_{}, reach_{};
