@@ -116,12 +116,12 @@ template <int D>
 void Contacts<D>::find_pairs(typename NearBalls<D>::Resting resting, bool list_overlapping,
                              PairsOfImages& found) {
   near_balls_.find(motion_.curves(), simulator().kernel(), resting, list_overlapping, shifts_, found);
+  if (shifts_.size() > 1) shifted_.set(motion_.curves(), shifts_);
   leave_out_absent(found);
 }
 
 template <int D>
 void Contacts<D>::leave_out_absent(PairsOfImages& found) {
-  if (shifts_.size() > 1) shifted_.set(motion_.curves(), shifts_);
   const std::span<const char> absent = present().absent();
   if (absent.empty()) return;
   const auto names_absent = [absent](const ImagePair& p) {
@@ -376,6 +376,7 @@ void Contacts<D>::find_of(std::span<const BeadId> beads) {
   PairsOfImages found;
   near_balls_.find_of(motion_.curves(), beads, simulator().kernel(), NearBalls<D>::Resting::looked_at, true,
                       shifts_, found);
+  if (shifts_.size() > 1) shifted_.set_of(motion_.curves(), beads, shifts_);
   leave_out_absent(found);
   std::erase_if(found.unclear, names_none);
   std::erase_if(found.overlapping, names_none);

@@ -196,7 +196,7 @@ class Contacts final : public EditableBase {
 
   void find_pairs(typename NearBalls<Dimension>::Resting resting, bool list_overlapping,
                   PairsOfImages& found);
-  /// Sets the shifted beads, and drops pairs of absent beads.
+  /// Drops pairs of absent beads.
   void leave_out_absent(PairsOfImages& found);
   [[nodiscard]] bool is_periodic() const { return motion_.curves().cell() != nullptr; }
   /// Watches the images that may meet, and takes them out of `found`.

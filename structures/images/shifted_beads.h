@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "motions/base/input_error.h"
@@ -120,11 +121,14 @@ class ShiftedBeads {
     beads_ = curves.bead_count();
     points_.resize((beads_ + 2 * shifts.size()) * row_ * stride);
     radii_.assign((beads_ + 2 * shifts.size()) * row_, 0);
-    for (BeadId bead = 0; bead < beads_; ++bead) {
-      std::copy_n(curves.control_point(bead, 0), row_ * stride, &points_[bead * row_ * stride]);
-      std::copy_n(curves.radii(bead), row_, &radii_[bead * row_]);
-    }
+    for (BeadId bead = 0; bead < beads_; ++bead) copy(curves, bead);
     for (std::size_t k = 0; k < row_; ++k) set_shifts(curves, shifts, k);
+  }
+  /// Does the same after only these beads have changed since the last call in the same step.
+  void set_of(const Curves<Dimension>& curves, std::span<const BeadId> beads,
+              const ShiftNumbers<Dimension>& shifts) {
+    if (radii_.size() != (curves.bead_count() + 2 * shifts.size()) * row_) return set(curves, shifts);
+    for (const BeadId bead : beads) copy(curves, bead);
   }
   /// Returns the points whose difference is the shift of this number.
   [[nodiscard]] BeadId to(std::uint32_t number) const { return static_cast<BeadId>(beads_ + 2 * number); }
@@ -143,6 +147,11 @@ class ShiftedBeads {
  private:
   static constexpr std::size_t stride = Dimension + 1;
   __extension__ using Integer = __int128;
+
+  void copy(const Curves<Dimension>& curves, BeadId bead) {
+    std::copy_n(curves.control_point(bead, 0), row_ * stride, &points_[bead * row_ * stride]);
+    std::copy_n(curves.radii(bead), row_, &radii_[bead * row_]);
+  }
 
   void set_shifts(const Curves<Dimension>& curves, const ShiftNumbers<Dimension>& shifts, std::size_t k) {
     double largest = 0;
