@@ -22,8 +22,8 @@
 // periodic cell, doubles first exclude images that are out of reach.
 //
 // Erasing a bead ends its contacts. Inserting one begins the contacts that it has just after that time.
-// Erasing costs one pass over all certificates; inserting a bead or changing its course costs as much as the
-// family.
+// Erasing costs one pass over all certificates. Inserting a bead or changing its course costs that, and in a
+// periodic cell the bead's neighbours (NearImages::find_of), otherwise as much as the family.
 
 #include <algorithm>
 #include <cstddef>
