@@ -26,6 +26,13 @@ from data import DCD, PDB, PROGRAM
 ROOT = Path(__file__).resolve().parents[2]
 
 
+class Module(unittest.TestCase):
+    def test_exports_only_its_entry_point(self):
+        nm = ["nm", "-D", "--defined-only", kds._kds.__file__]
+        symbols = subprocess.run(nm, capture_output=True, text=True, check=True).stdout
+        self.assertEqual([line.split()[-1] for line in symbols.splitlines()], ["PyInit__kds"])
+
+
 class Docstrings(unittest.TestCase):
     def test_examples_run(self):
         tried = 0
