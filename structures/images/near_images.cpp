@@ -568,16 +568,22 @@ void NearImages<D>::compare_bead(BeadId bead, std::span<const BeadId> done, bool
                                  ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
   if (groups_of(bead) == 0) return;
   const Swept& one = swept_[places_[bead]];
-  const auto compare_with = [&](const Swept& other, const Shift& image) {
-    if (other.bead == bead || std::ranges::find(done, other.bead) != done.end()) return;
+  Point from{};  // where the other bead sees the image
+  double own_reach = 0;
+  const auto look_from = [&](const Shift& image) {
     const Point moved = vector_to(image);
+    for (std::size_t axis = 0; axis < dimension; ++axis) from[axis] = one.center[axis] - moved[axis];
+    own_reach = one.reach + (is_zero(image) ? 0 : wobble_);
+  };
+  const auto compare_with = [&](const Swept& other, const Shift& image) {
     double square = 0;
     for (std::size_t axis = 0; axis < dimension; ++axis) {
-      const double d = other.center[axis] - (one.center[axis] - moved[axis]);
+      const double d = other.center[axis] - from[axis];
       square += d * d;
     }
-    const double reach = one.reach + (is_zero(image) ? 0 : wobble_) + other.reach;
-    if (square <= reach * reach && PairsAsked::joins(one.groups, other.groups))
+    const double reach = own_reach + other.reach;
+    if (square > reach * reach || other.bead == bead || !PairsAsked::joins(one.groups, other.groups)) return;
+    if (std::ranges::find(done, other.bead) == done.end())
       look_at(one, other, image, list_overlapping, shifts, pairs);
   };
   // In the grid, apart from beads that have moved.
@@ -586,6 +592,7 @@ void NearImages<D>::compare_bead(BeadId bead, std::span<const BeadId> done, bool
     const auto other_bin = neighbour(bin, by);
     if (!other_bin) return;
     const auto& [at, image] = *other_bin;
+    look_from(image);
     for (std::uint32_t j = begins_[at]; j < begins_[at + 1]; ++j)
       if (is_moved_[sorted_[j].bead] == 0) compare_with(sorted_[j], image);
   });
@@ -594,6 +601,7 @@ void NearImages<D>::compare_bead(BeadId bead, std::span<const BeadId> done, bool
   for (std::size_t a = 0; a < dimension; ++a)
     if (lattice_.periodic[a]) most[a] = (reach_[a] + bins_[a] - 1) / bins_[a];
   for_each_shift(most, [&](const Shift& image) {
+    look_from(image);
     for (const BeadId other : moved_) compare_with(swept_[places_[other]], image);
   });
 }
