@@ -600,8 +600,19 @@ void NearImages<D>::compare_bead(BeadId bead, std::span<const BeadId> done, bool
   Shift most{};
   for (std::size_t a = 0; a < dimension; ++a)
     if (lattice_.periodic[a]) most[a] = (reach_[a] + bins_[a] - 1) / bins_[a];
+  Point low, high;  // a box of the beads that have moved
+  low.fill(unbounded);
+  high.fill(-unbounded);
+  for (const BeadId other : moved_)
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      low[axis] = std::min(low[axis], swept_[places_[other]].center[axis]);
+      high[axis] = std::max(high[axis], swept_[places_[other]].center[axis]);
+    }
   for_each_shift(most, [&](const Shift& image) {
     look_from(image);
+    const double reach = own_reach + grid_reach_;  // no bead that has moved reaches farther
+    for (std::size_t axis = 0; axis < dimension; ++axis)
+      if (low[axis] - from[axis] > reach || from[axis] - high[axis] > reach) return;
     for (const BeadId other : moved_) compare_with(swept_[places_[other]], image);
   });
 }
