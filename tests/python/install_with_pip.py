@@ -1,7 +1,6 @@
-"""Installs the module with pip into a virtual environment without a network, and uses it there.
+"""Installs the module with pip into a plain virtual environment, without a network and without setuptools, and uses it there.
 
-KDS_BUILD names a build folder with the module, so that nothing is compiled. Exit code 77 (skipped) if pip lacks a package
-that it needs.
+KDS_BUILD names a build folder with the module, so that nothing is compiled. Exit code 77 (skipped) if there is no pip.
 """
 
 import os
@@ -9,39 +8,40 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import venv
 from pathlib import Path
 
+import numpy
+
 ROOT = Path(__file__).resolve().parents[2]
-USES = 'import kds; print(kds.run(kds.generate("spiral", beads=30, frames=5), radius=1).fingerprint, kds.__file__)'
+USES = str(ROOT / "tests" / "python" / "use_module.py")
 
 
 def main():
-    try:
-        import setuptools  # noqa: F401
-        import venv
-        import wheel  # noqa: F401
-    except ImportError as error:
-        print(f"skipped: {error}")
-        return 77
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    expected, _ = subprocess.run([sys.executable, "-c", USES], capture_output=True, text=True, check=True).stdout.split()
+    expected, _ = subprocess.run([sys.executable, USES], capture_output=True, text=True, check=True).stdout.split()
     with tempfile.TemporaryDirectory() as folder:
         try:
-            venv.create(folder, system_site_packages=True, with_pip=True)
+            venv.create(folder, with_pip=True)
         except subprocess.CalledProcessError as error:
             print(f"skipped: no virtual environment with pip ({error})")
             return 77
         python = str(Path(folder) / "bin" / "python")
-        source = Path(folder) / "source"  # pip writes into the folder that it installs
+        source = Path(folder) / "source"
         source.mkdir()
-        for name in ("pyproject.toml", "setup.py", "CMakeLists.txt", "README.md", "LICENSE"):
+        for name in ("pyproject.toml", "CMakeLists.txt", "README.md", "LICENSE"):
             shutil.copy(ROOT / name, source)
         shutil.copytree(ROOT / "python", source / "python")
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "--no-index", "--no-build-isolation", "--no-deps",
-                        str(source)], check=True, env=environment)
-        found, path = subprocess.run([python, "-c", USES], capture_output=True, text=True, check=True, env=environment,
+        pip = [python, "-m", "pip"]
+        subprocess.run([*pip, "install", "--quiet", "--no-index", "--no-deps", str(source)], check=True, env=environment)
+        environment["PYTHONPATH"] = str(Path(numpy.__file__).parents[1])  # the environment itself has no NumPy
+        found, path = subprocess.run([python, USES], capture_output=True, text=True, check=True, env=environment,
                                      cwd=folder).stdout.split()
         assert path.startswith(folder), path
+        shown = subprocess.run([*pip, "show", "kds"], capture_output=True, text=True, check=True, env=environment).stdout
+        assert "\nRequires: numpy\n" in shown, shown
+        subprocess.run([*pip, "uninstall", "--quiet", "--yes", "kds"], check=True, env=environment)
+        assert not Path(path).exists(), f"pip leaves {path}"
     assert found == expected, (found, expected)
     print(f"installed, and gives the fingerprint {found}")
     return 0
