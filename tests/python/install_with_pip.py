@@ -14,12 +14,12 @@ from pathlib import Path
 import numpy
 
 ROOT = Path(__file__).resolve().parents[2]
-USES = str(ROOT / "tests" / "python" / "use_module.py")
+USES = 'import kds; print(kds.run(kds.generate("spiral", beads=30, frames=5), radius=1).fingerprint, kds.__file__)'
 
 
 def main():
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    expected, _ = subprocess.run([sys.executable, USES], capture_output=True, text=True, check=True).stdout.split()
+    expected, _ = subprocess.run([sys.executable, "-c", USES], capture_output=True, text=True, check=True).stdout.split()
     with tempfile.TemporaryDirectory() as folder:
         try:
             venv.create(folder, with_pip=True)
@@ -35,7 +35,7 @@ def main():
         pip = [python, "-m", "pip"]
         subprocess.run([*pip, "install", "--quiet", "--no-index", "--no-deps", str(source)], check=True, env=environment)
         environment["PYTHONPATH"] = str(Path(numpy.__file__).parents[1])  # the environment itself has no NumPy
-        found, path = subprocess.run([python, USES], capture_output=True, text=True, check=True, env=environment,
+        found, path = subprocess.run([python, "-c", USES], capture_output=True, text=True, check=True, env=environment,
                                      cwd=folder).stdout.split()
         assert path.startswith(folder), path
         shown = subprocess.run([*pip, "show", "kds"], capture_output=True, text=True, check=True, env=environment).stdout
