@@ -56,8 +56,8 @@ for what, found in {
 # Dependencies. The dictionaries map the name of a package to the lowest version that is accepted.
 conda = recipe["requirements"]["build"] + recipe["requirements"]["host"]
 conda = dict((f"{entry} >=".split(" >=")[:2]) for entry in conda if not entry.startswith("${{"))
-debian = dict(re.findall(r"([\w.+-]+)(?: \(>= ([0-9.]+)\))?(?:,| \||$)", control[0]["Build-Depends"].strip(), re.M))
-debian["libflint-dev"] = re.search(r"libflint-dev \(>= ([0-9.]+)\),", control[0]["Build-Depends"]).group(1)
+alternatives = [entry.split("|")[-1] for entry in control[0]["Build-Depends"].split(",")]  # the last is that of older releases
+debian = dict(re.fullmatch(r"\s*([\w.+-]+)(?: \([>=]+ ([0-9.]+)\))?\s*", entry).groups("") for entry in alternatives)
 expect("environment.yml", sorted(environment["dependencies"]), sorted(row[6] for row in rows if row[6] != "-"))
 for row in program:
     lowest = at_least.get("cmake" if row[2] == "cmake" else row[1], "")
