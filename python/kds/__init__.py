@@ -26,17 +26,17 @@ from ._view import View
 
 AuditError.__module__ = InputError.__module__ = "kds"
 __version__ = _version()
-__all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "Contacts", "InputError", "InputWarning",
-           "KineticAnalysis", "KineticRun", "Opened", "Replicas", "Run", "StreamFrame", "Structure", "Surface", "Trade",
-           "Updates", "View", "Voids", "closest_by_diagram", "closest_pair", "collide", "colliding_pairs", "compare",
-           "conditions", "contacts", "contacts_of_parts", "contacts_of_replicas", "enclosing_sphere", "generate", "impacts",
-           "layered_hierarchy", "power_diagram", "run", "separating_family", "stream", "structure_names", "surface",
-           "trade", "trusted_hierarchy", "update", "voids", "wrapped_hierarchy"]
+__all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "ContactAnalysis", "Contacts", "InputError",
+           "InputWarning", "KineticAnalysis", "KineticRun", "Opened", "Replicas", "Run", "StreamFrame", "Structure",
+           "Surface", "Trade", "Updates", "View", "Voids", "closest_by_diagram", "closest_pair", "collide",
+           "colliding_pairs", "compare", "conditions", "contacts", "contacts_of_parts", "contacts_of_replicas",
+           "enclosing_sphere", "generate", "impacts", "layered_hierarchy", "power_diagram", "run", "separating_family",
+           "stream", "structure_names", "surface", "trade", "trusted_hierarchy", "update", "voids", "wrapped_hierarchy"]
 
 
 def __getattr__(name):
-    if name == "KineticAnalysis":  # only this class needs MDAnalysis
-        from ._analysis import KineticAnalysis
+    if name in ("ContactAnalysis", "KineticAnalysis"):  # only these classes need MDAnalysis
+        from . import _analysis
 
-        return KineticAnalysis
+        return getattr(_analysis, name)
     raise AttributeError(f"module 'kds' has no attribute '{name}'")

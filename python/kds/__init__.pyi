@@ -3,7 +3,7 @@ from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Seque
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from typing_extensions import Unpack
+from typing_extensions import Self, Unpack
 
 Path = Union[str, "PathLike[str]"]
 Source = Any  # path, list of paths, array (frames, beads, 3), AtomGroup, mdtraj Trajectory or iterable of frames
@@ -88,11 +88,13 @@ class _Lifetimes(TypedDict, total=False):
     certify: bool
     threads: Optional[int]
 
-class _Contacts(_Input, _Live, _Lifetimes, total=False):
+class _ContactAnalysis(_Source, _Live, _Lifetimes, total=False):
     velocities: Union[str, ArrayLike, None]
     obstacle: Optional[Path]
     by: Optional[str]
     groups: Optional[Tuple[Any, Any]]
+
+class _Contacts(_Frames, _ContactAnalysis): ...
 
 class _Compare(_Input, _Live, total=False):
     velocities: Union[str, ArrayLike, None]
@@ -317,13 +319,22 @@ class Trade(_Result):
 class Conditions(_Result):
     proper: bool
 
-class KineticAnalysis:
+class _AnalysisBase:
     results: Any
+    times: NDArray[Any]
+    frames: NDArray[Any]
+    def run(self, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
+            frames: Optional[ArrayLike] = None, verbose: Optional[bool] = None) -> Self: ...
+
+class KineticAnalysis(_AnalysisBase):
     kds: Optional[Run]
     def __init__(self, atomgroup: Any, verbose: bool = False, *, view: Optional[Path] = None,
                  **options: Unpack[_Analysis]) -> None: ...
-    def run(self, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
-            verbose: Optional[bool] = None) -> KineticAnalysis: ...
+
+class ContactAnalysis(_AnalysisBase):
+    kds: Optional[Contacts]
+    def __init__(self, atomgroup: Any, verbose: bool = False, *, cutoff: Cutoffs,
+                 **options: Unpack[_ContactAnalysis]) -> None: ...
 
 def run(source: Source, *, verbose: bool = False, view: Optional[Path] = None, **options: Unpack[_Run]) -> Run: ...
 class Opened:

@@ -329,15 +329,6 @@ class PathArrayGroupAndMdtraj(unittest.TestCase):
         trajectory = mdtraj.Trajectory(0.4 * np.arange(3)[None, :, None].repeat(2, axis=0).repeat(3, axis=2), topology)
         self.assertEqual(kds.contacts(trajectory, cutoff=8, apart=1).names, ["HOH 5", "HOH 5#1", "HOH 6"])
 
-    def test_analysis_of_mdanalysis(self):
-        from MDAnalysis.analysis.base import AnalysisBase
-
-        group = universe(self.xtc).select_atoms(BACKBONE)
-        analysis = kds.KineticAnalysis(group, structures=["power"]).run(start=2, stop=12)
-        self.assertIsInstance(analysis, AnalysisBase)
-        self.assertEqual(analysis.results.fingerprint, kds.run(group, structures=["power"], start=2, stop=12).fingerprint)
-        self.assertEqual(list(analysis.results.frames), list(range(2, 12)))
-
 
 class Units(unittest.TestCase):
     """Nanometres that are taken for angstrom."""
