@@ -45,6 +45,7 @@ calls = [[argument.value for argument in call.args] for call in ast.walk(ast.par
 ast.parse(read(spack.replace("/kds/package.py", "/gemmi/package.py")))
 python = tomllib.loads(read("pyproject.toml"))
 wheels = python["tool"]["cibuildwheel"]
+kit = yaml.safe_load(read("packaging/mdakits/metadata.yaml"))
 workflows = {path.stem: yaml.safe_load(path.read_text()) for path in (ROOT / ".github" / "workflows").glob("*.yml")}
 
 for what, found in {
@@ -96,6 +97,18 @@ expect("number of test commands", len(tests), 5)
 expect("last step of test.yml", workflows["test"]["jobs"]["test"]["steps"][-1], {"run": "scripts/test"})
 steps = workflows["wheels"]["jobs"]["wheels"]["steps"]
 expect("wheels.yml builds wheels", any("cibuildwheel" in step.get("run", "") for step in steps), True)
+
+# The registry MDAKits requires these fields, and clones project_home.git.
+for name, kind in {**dict.fromkeys(("project_name", "description", "license", "project_home", "python_requires",
+                                    "documentation_home", "documentation_type"), str),
+                   **dict.fromkeys(("authors", "maintainers", "keywords", "install", "run_tests"), list)}.items():
+    expect(f"metadata.yaml: type of {name}", type(kit.get(name)), kind)
+for name, value in {"project_name": "name", "description": "description", "license": "license",
+                    "python_requires": "requires-python"}.items():
+    expect(f"metadata.yaml: {name}", kit[name], python["project"][value])
+expect("metadata.yaml: project_home", kit["project_home"], python["project"]["urls"]["Repository"])
+test = f"{kit['run_tests'][-1].split()[-1]}.py"
+expect(f"tests/python has {test}", (ROOT / "tests" / "python" / test).exists(), True)
 
 # What a maintainer fills in is listed.
 listed = set(re.findall(r"^\| `(FILL_\w+)`", read("packaging/README.md"), re.M))
