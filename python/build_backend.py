@@ -1,7 +1,7 @@
-"""Builds wheels and source archives of the Python module (PEP 517). pip calls it; it needs nothing but Python and CMake.
+"""Builds wheels and source archives of the Python module (PEP 517). pip calls this file, which needs only Python and CMake.
 
 KDS_BUILD names a build folder that is configured with -DKDS_PYTHON_MODULE=ON (default: build/pip- and the version of Python).
-What the folder has built already is used again. If the folder is not configured, CMake is called with the options in
+CMake uses what the folder has built already. If the folder is not configured, CMake is called with the options in
 CMAKE_ARGS, quoted as in a shell. At most two compilers run at a time, unless CMAKE_BUILD_PARALLEL_LEVEL says otherwise.
 """
 

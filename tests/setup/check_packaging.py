@@ -110,7 +110,7 @@ expect("metadata.yaml: project_home", kit["project_home"], python["project"]["ur
 test = f"{kit['run_tests'][-1].split()[-1]}.py"
 expect(f"tests/python has {test}", (ROOT / "tests" / "python" / test).exists(), True)
 
-# What a maintainer fills in is listed.
+# packaging/README.md lists what a maintainer fills in.
 listed = set(re.findall(r"^\| `(FILL_\w+)`", read("packaging/README.md"), re.M))
 used = {word for path, text in texts.items() if path.name != "README.md" for word in re.findall(r"FILL_\w+", text)}
 expect("placeholders that packaging/README.md lists", sorted(listed), sorted(used))
