@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "certificates/exact/instant.h"
 #include "kds/kinetic_structure.h"
 #include "motions/frames/frame_stamp.h"
+#include "motions/numbers/exact_number.h"
 
 namespace kds {
 
@@ -91,6 +93,27 @@ struct Event {
   }
 };
 
+/// An edit of a run. The changes that it causes are events after it.
+struct Edit {
+  enum class Kind : std::uint8_t { insert, erase, change };
+  Kind kind = Kind::insert;
+  std::size_t structure = 0;        ///< index of the structure, for `insert` and `erase`
+  std::vector<BeadId> beads = {};   ///< one bead, or all that change course
+  std::vector<double> points = {};  ///< of `change`: the new coordinates by bead, control point and axis
+  std::size_t step = 0;
+  /// The time of the edit. If `after_failure`, the edit was made at the last failure before `time`, because
+  /// the time of a failure may be irrational.
+  Dyadic time = {};
+  bool after_failure = false;
+  std::string where = {};  ///< names an edit of a log in messages
+};
+
+/// An edit and its place among the events.
+struct LoggedEdit {
+  std::size_t events_before = 0;
+  Edit edit;
+};
+
 class EventListener {
  public:
   virtual ~EventListener() = default;
@@ -109,14 +132,19 @@ class EventListener {
     static_cast<void>(event);
     return false;
   }
+  /// Called for each edit of a run (Simulator::make_edit), before the events that it causes. The rules of
+  /// `on_event` hold.
+  virtual void on_edit(const Edit& edit) { static_cast<void>(edit); }
 };
 
-/// Keeps all events.
+/// Keeps all events and edits.
 class EventLog final : public EventListener {
  public:
   void on_event(const Event& event) override { events.push_back(event); }
+  void on_edit(const Edit& edit) override { edits.push_back({events.size(), edit}); }
 
   std::vector<Event> events;
+  std::vector<LoggedEdit> edits;
 };
 
 /// A hash of 32-bit words in their order: FNV-1a with the final mix of splitmix64.

@@ -144,10 +144,14 @@ void Simulator::run_until(const Dyadic& time) {
   watch_.charge(Stopwatch::stopped);
 }
 
-bool Simulator::run_next() {
+bool Simulator::run_next() { return run_one_moment(nullptr); }
+
+bool Simulator::run_next(const Dyadic& until) { return run_one_moment(&until); }
+
+bool Simulator::run_one_moment(const Dyadic* until) {
   const ComputeScope scope(*this);
   require(Phase::within_step, "run_next()");
-  const bool any = run_events<true>(nullptr);
+  const bool any = run_events<true>(until);
   if (any) hold_now();
   watch_.charge(Stopwatch::stopped);
   return any;
@@ -202,6 +206,30 @@ void Simulator::change_motion(std::span<const BeadId> beads, const std::function
   mutation.end();
   watch_.charge(Stopwatch::stopped);
   if (refused) std::rethrow_exception(refused);
+}
+
+void Simulator::make_edit(Edit& edit, const std::function<void()>& make) {
+  const ComputeScope scope(*this);
+  require_standing_still();
+  ExactTime& now = now_.exact();
+  edit.step = step_;
+  edit.after_failure = !now.is_dyadic();
+  edit.time = now.lower();
+  if (edit.after_failure) {
+    ExactTime next = time_of_next();
+    edit.time = dyadic_between(now, next);
+  }
+  untold_ = &edit;
+  try {
+    make();
+  } catch (...) {
+    untold_ = nullptr;
+    throw;
+  }
+  if (const Edit* const untold = std::exchange(untold_, nullptr)) tell(*untold);
+  MutationScope mutation(*this);
+  settle_batch();
+  mutation.end();
 }
 
 void Simulator::leave_step() {
@@ -266,13 +294,13 @@ bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
     InterruptionCheck::ask();
     if ((audits_ == AuditMode::events || must_settle()) && is_batch_over()) {
       settle_batch();
-      if (audits_ == AuditMode::events) static_cast<void>(audit_before(next_failure()));
+      if (audits_ == AuditMode::events) static_cast<void>(audit_before_next());
     }
     const bool tied =
         present_.source != nullptr && !queue_.empty() && order_.compare_times(present_, queue_.top()) == 0;
     if (!tied) ++moment_;
     if constexpr (one_moment) {
-      if ((any && !tied) || queue_.empty()) {
+      if ((any && !tied) || queue_.empty() || (until != nullptr && is_after(queue_.top(), *until))) {
         mutation.end();
         return any;
       }
@@ -314,11 +342,16 @@ bool Simulator::is_batch_over() {
   return next == nullptr || present_.source == nullptr || order_.compare_times(present_, *next) < 0;
 }
 
+ExactTime Simulator::time_of_next() {
+  const ScheduledFailure* const next = next_failure();
+  return next == nullptr ? ExactTime(Dyadic(1.0))
+                         : exact_time(*next->source->exact_function(next->slot), next->time);
+}
+
 /// Audits all structures at a time between now and the next failure, or between now and the end of the step.
 /// Returns false if the next failure is due now.
-bool Simulator::audit_before(ScheduledFailure* next) {
-  ExactTime then = next == nullptr ? ExactTime(Dyadic(1.0))
-                                   : exact_time(*next->source->exact_function(next->slot), next->time);
+bool Simulator::audit_before_next() {
+  ExactTime then = time_of_next();
   if (ExactTime::compare(now_.exact(), then) >= 0) return false;
   audit(dyadic_between(now_.exact(), then));
   return true;
@@ -330,7 +363,7 @@ void Simulator::audit_now() {
   if (phase_ == Phase::between_steps) return audit(Dyadic(step_ == 0 ? 0.0 : 1.0));
   MutationScope mutation(*this);
   settle_batch();
-  if (!audit_before(next_failure()))
+  if (!audit_before_next())
     throw std::logic_error("audit_now(): a failure is due at this very time: call run_next() first");
   mutation.end();
 }
@@ -398,7 +431,14 @@ auto Simulator::for_listeners(const Work& work) {
   return result;
 }
 
+void Simulator::tell(const Edit& edit) {
+  MutationScope mutation(*this);
+  for (EventListener* listener : listeners_) listener->on_edit(edit);
+  mutation.end();
+}
+
 void Simulator::tell(std::size_t structure, const Change& change) {
+  if (const Edit* const untold = std::exchange(untold_, nullptr)) tell(*untold);
   const std::size_t before = listeners_have_lane_ ? watch_.charge(listener_lane) : 0;
   // Certain digits are charged to the listeners in any case.
   const TimeBracket bracket = for_listeners([&] { return canonical_bracket(now_); });

@@ -77,6 +77,8 @@ class Simulator {
   /// Handles all events at the next time in the step at which something happens; this time may be irrational.
   /// Returns false, and leaves the time unchanged, if nothing more happens in the step.
   bool run_next();
+  /// Like run_next, but returns false also if nothing more happens up to that time.
+  bool run_next(const Dyadic& until);
 
   /// Audits all structures now, whatever AuditMode was chosen, and counts the audit. Within a step the
   /// structures settle first, and the audit is at a time between now and the next failure. Between steps
@@ -88,9 +90,11 @@ class Simulator {
 
   /// Gives some beads other curves while time stands still: `set_curves()` sets them in the motion, and the
   /// beads follow them from now on. The new curves may begin at other positions. All structures follow.
-  /// Throws std::invalid_argument, and changes nothing, if a structure cannot follow. A log does not hold
-  /// curves, so a replay must use the same motion.
+  /// Throws std::invalid_argument, and changes nothing, if a structure cannot follow.
   void change_motion(std::span<const BeadId> beads, const std::function<void()>& set_curves);
+  /// Makes an edit by `make` while time stands still, and settles the structures. Sets the edit's step and
+  /// time, and tells the listeners of it unless `make` throws before it changes anything.
+  void make_edit(Edit& edit, const std::function<void()>& make);
   /// Throws std::invalid_argument unless a step is under way and nothing is happening: while an event is
   /// handled, and after a run that an exception ended.
   void require_standing_still() const;
@@ -150,6 +154,7 @@ class Simulator {
   void require(Phase phase, const char* what) const;
   /// Notifies the listeners of a change now. Kept out of line, because most runs have none.
   [[gnu::noinline]] void tell(std::size_t structure, const Change& change);
+  void tell(const Edit& edit);
   /// Notifies the listeners of a change. `rounded` is asked for the time in certain digits if one of them
   /// prints it.
   void notify(std::size_t structure, const Change& change, const TimeBracket& bracket, DecidedBy decided_by,
@@ -157,6 +162,7 @@ class Simulator {
   /// Does work for the listeners, which is not counted as the run's own.
   template <class Work>
   auto for_listeners(const Work& work);
+  bool run_one_moment(const Dyadic* until);
   void hold_now();
   void begin_step();
   void start_step();
@@ -172,13 +178,15 @@ class Simulator {
   [[nodiscard]] static bool is_after(const ScheduledFailure& failure, const Dyadic& time);
   /// Returns null if nothing more fails in this step.
   [[nodiscard]] ScheduledFailure* next_failure() { return queue_.empty() ? nullptr : &queue_.top(); }
+  /// Returns the exact time of the next failure in this step, or 1.
+  [[nodiscard]] ExactTime time_of_next();
   /// Returns whether a structure waits for the end of the batch, which is all failures at one time.
   [[nodiscard]] bool must_settle() const;
   [[nodiscard]] bool is_batch_over();
   void settle_batch();
   void retire_present();
   void audit(const Dyadic& time);
-  [[nodiscard]] bool audit_before(ScheduledFailure* next);
+  [[nodiscard]] bool audit_before_next();
 
   ExactWork work_, listeners_work_;
   FailureOrder order_;
@@ -200,7 +208,8 @@ class Simulator {
   Fingerprint fingerprint_;
   Stopwatch watch_;
   bool listeners_have_lane_ = true;
-  bool recording_ = true;  // false while a replayed structure builds itself
+  bool recording_ = true;         // false while a replayed structure builds itself
+  const Edit* untold_ = nullptr;  // an edit that is being made and has changed nothing so far
 };
 
 }  // namespace kds

@@ -15,11 +15,10 @@
 
 namespace kds {
 
-/// An edit made by the user, with its time.
-struct KineticRun::Edit {
-  std::size_t step;
+/// An edit that was made, with its time in the step.
+struct KineticRun::MadeEdit {
+  Edit edit;
   ExactTime time;
-  std::function<void()> make;
 };
 
 /// A bead whose curve the user changed, and the end of its new curve.
@@ -330,6 +329,13 @@ void KineticRun::audit_now() {
   simulator().audit_now();
 }
 
+bool KineticRun::is_past(double time) {
+  const double u = time - static_cast<double>(simulator().step());
+  if (!within_ || !(u >= 0 && u < 1)) return u < 0;
+  ExactTime there{Dyadic(u)};
+  return ExactTime::compare(there, simulator().now().exact()) < 0;
+}
+
 void KineticRun::go_to(double time) {
   if (scene_.is_live()) {  // runs each step as its frames come
     while (static_cast<double>(simulator().step() + 1) <= time && run_step()) {
@@ -345,9 +351,7 @@ void KineticRun::go_to(double time) {
   const auto step = static_cast<std::size_t>(time);
   const double u = time - static_cast<double>(step);
   ExactTime there{Dyadic(u)};
-  const bool is_past = step < present || (step == present && within_ &&
-                                          ExactTime::compare(there, simulator().now().exact()) < 0);
-  if (!is_past) return go_on_to(step, u);
+  if (!is_past(time)) return go_on_to(step, u);
   if (own_scene_ || scene_.is_live() || !built_)
     throw std::invalid_argument(
         fmt::format("time {}: the run is past it, and its steps are not kept; expected a later one", time));
@@ -358,10 +362,10 @@ void KineticRun::go_to(double time) {
       for (EventListener* listener : run.listeners_) run.simulator().listen(*listener);
     }
   } const tell_again{*this};
-  for (Edit& edit : std::exchange(edits_, {})) {
-    if (edit.step > step || (edit.step == step && ExactTime::compare(there, edit.time) < 0)) break;
-    redo(edit);
-    edits_.push_back(std::move(edit));
+  for (MadeEdit& made : std::exchange(edits_, {})) {
+    const std::size_t of_edit = made.edit.step;
+    if (of_edit > step || (of_edit == step && ExactTime::compare(there, made.time) < 0)) break;
+    repeat(made.edit);
   }
   go_on_to(step, u);
 }
@@ -379,22 +383,44 @@ void KineticRun::go_on_to(std::size_t step, double u) {
   simulator().run_until(Dyadic(u));
 }
 
-void KineticRun::edit(std::function<void()> make) {
-  make();
-  if (!own_scene_) edits_.push_back({simulator().step(), simulator().now().exact(), std::move(make)});
+/// Makes an edit now, and keeps it for the case that the run goes back.
+void KineticRun::make(Edit edit) {
+  if (edit.kind == Edit::Kind::change) {
+    NewCourses courses(editable_motion(), edit.beads);
+    set_coordinates(courses, edit.beads, edit.points);  // if this throws, nothing has changed yet
+    courses.hold_back();
+    simulator().make_edit(
+        edit, [&] { simulator().change_motion(edit.beads, [&courses] { courses.set_for_good(); }); });
+    for (const BeadId bead : edit.beads) {
+      std::erase_if(bends_, [bead](const Bend& bend) { return bend.bead == bead; });
+      bends_.push_back({bead, control_point(scene_motion_->ref(), bead, true)});
+    }
+  } else {
+    BeadEdits& structure = editable(edit.structure);
+    const BeadId bead = edit.beads.at(0);
+    simulator().make_edit(
+        edit, [&] { edit.kind == Edit::Kind::insert ? structure.insert(bead) : structure.erase(bead); });
+  }
+  if (!own_scene_) edits_.push_back({std::move(edit), simulator().now().exact()});
 }
 
-void KineticRun::redo(const Edit& edit) {
-  run_to(edit.step);
-  if (!within_) enter();
-  ExactTime time = edit.time;
-  if (time.is_dyadic()) {
-    simulator().run_until(time.lower());
-  } else {
-    while (ExactTime::compare(simulator().now().exact(), time) < 0)
-      if (!simulator().run_next()) throw std::logic_error("an edit's time does not come again");
+void KineticRun::repeat(const Edit& edit) {
+  const auto repeated = [&] {
+    run_to(edit.step);
+    if (!within_) enter();
+    if (!edit.after_failure) simulator().run_until(edit.time);
+    while (edit.after_failure && simulator().run_next(edit.time)) {
+    }
+    make(edit);
+  };
+  if (edit.where.empty()) return repeated();
+  try {
+    repeated();
+  } catch (const std::invalid_argument& reason) {
+    throw InputError(edit.where + ": " + reason.what());
+  } catch (const StructureRefusal& reason) {
+    throw InputError(edit.where + ": " + reason.what());
   }
-  edit.make();
 }
 
 BeadEdits& KineticRun::editable(std::size_t structure) const {
@@ -404,29 +430,30 @@ BeadEdits& KineticRun::editable(std::size_t structure) const {
   throw StructureRefusal(std::string(edited.name()), "its beads cannot come and go");
 }
 
-void KineticRun::insert(std::size_t structure, BeadId bead) {
-  edit([this, structure, bead] { editable(structure).insert(bead); });
+SceneMotion& KineticRun::editable_motion() const {
+  if (motion_)
+    throw std::logic_error("over a motion that its user sets, Simulator::change_motion changes courses");
+  simulator_->require_standing_still();
+  return *scene_motion_;
 }
 
-void KineticRun::erase(std::size_t structure, BeadId bead) {
-  edit([this, structure, bead] { editable(structure).erase(bead); });
-}
+void KineticRun::insert(std::size_t structure, BeadId bead) { make({Edit::Kind::insert, structure, {bead}}); }
+
+void KineticRun::erase(std::size_t structure, BeadId bead) { make({Edit::Kind::erase, structure, {bead}}); }
 
 void KineticRun::change_motion(std::vector<BeadId> beads,
                                const std::function<void(SceneMotion&)>& set_curves) {
-  if (motion_)
-    throw std::logic_error("over a motion that its user sets, Simulator::change_motion changes courses");
-  edit([this, kept = std::move(beads), set_curves] {
-    simulator().require_standing_still();
-    NewCourses courses(*scene_motion_, kept);
-    set_curves(courses);  // if this throws, nothing has changed yet
-    courses.hold_back();
-    simulator().change_motion(kept, [&] { courses.set_for_good(); });
-    for (const BeadId bead : kept) {
-      std::erase_if(bends_, [bead](const Bend& bend) { return bend.bead == bead; });
-      bends_.push_back({bead, control_point(scene_motion_->ref(), bead, true)});
-    }
-  });
+  std::vector<double> points;
+  {
+    NewCourses courses(editable_motion(), beads);
+    set_curves(courses);
+    points = coordinates_of(courses, beads);
+  }
+  change_motion(std::move(beads), std::move(points));
+}
+
+void KineticRun::change_motion(std::vector<BeadId> beads, std::vector<double> points) {
+  make({Edit::Kind::change, 0, std::move(beads), std::move(points)});
 }
 
 std::vector<Event> KineticRun::built(std::size_t structure) const {

@@ -163,6 +163,8 @@ class KineticRun {
   /// changes made directly on structures or simulator. Throws std::invalid_argument if the time is
   /// outside the known steps.
   void go_to(double time);
+  /// Returns whether the run stands at a later time than this one.
+  [[nodiscard]] bool is_past(double time);
   /// Ends the frames: no step follows.
   void finish();
   /// Audits all structures where the run stands, whatever the option `audits` says (Simulator::audit_now).
@@ -179,15 +181,20 @@ class KineticRun {
   void insert(std::size_t structure, BeadId bead);
   void erase(std::size_t structure, BeadId bead);
   /// Gives beads other curves from now on. `set_curves` sets their control points by
-  /// SceneMotion::set_coordinate, which throws std::invalid_argument for any other bead. `set_curves` is
-  /// called again if the run goes back and reaches this time again. If `set_curves` throws, nothing has
-  /// changed.
+  /// SceneMotion::set_coordinate, which throws std::invalid_argument for any other bead. If `set_curves`
+  /// throws, nothing has changed.
   ///
   /// A curve is given for the whole step, including the part before now. At the end of the step it must reach
   /// the bead's position in the next frame; otherwise the next step, if there is one, throws InputError. All
   /// structures follow. If a structure cannot follow, std::invalid_argument names it, and nothing is changed.
   /// Over a motion that the user sets, use Simulator::change_motion instead.
   void change_motion(std::vector<BeadId> beads, const std::function<void(SceneMotion&)>& set_curves);
+  /// The same with all coordinates of the new curves, ordered by bead, control point and axis.
+  void change_motion(std::vector<BeadId> beads, std::vector<double> points);
+  /// Runs forward to the time of an edit of another run of these structures over this scene, and makes it
+  /// again. All edits before must have been repeated. Throws like the functions above; if the edit has a
+  /// `where`, throws InputError with it.
+  void repeat(const Edit& edit);
 
   // Results where the run stands. Structures are given by their indices.
 
@@ -215,7 +222,7 @@ class KineticRun {
 
  private:
   friend class ParallelRun;  // its whole run shows structures that other runs have
-  struct Edit;
+  struct MadeEdit;
   struct Bend;
 
   /// A run over a scene, whose motion is set by another run.
@@ -235,9 +242,9 @@ class KineticRun {
   [[nodiscard]] std::uint64_t changes_made() const;
   void run_to(std::size_t step);
   void go_on_to(std::size_t step, double u);
-  void edit(std::function<void()> make);
-  void redo(const Edit& edit);
+  void make(Edit edit);
   [[nodiscard]] BeadEdits& editable(std::size_t structure) const;
+  [[nodiscard]] SceneMotion& editable_motion() const;
   void check_bends() const;
   void check_radii() const;
 
@@ -255,7 +262,7 @@ class KineticRun {
   std::vector<std::unique_ptr<RunningStructure>> running_;
   std::vector<KineticStructure*> kinetic_;
   bool built_ = false, loaded_ = false, within_ = false, finished_ = false;
-  std::vector<Edit> edits_;
+  std::vector<MadeEdit> edits_;
   std::vector<Bend> bends_;  // changes of course in this step or the previous one
 };
 

@@ -51,21 +51,6 @@ std::unique_ptr<SceneMotion> make_in(const Scene& scene) {
   }
 }
 
-template <class Visit>
-void for_numbers(const SceneMotion& motion, const std::vector<BeadId>& beads, Visit visit) {
-  std::visit(
-      [&]<int Dimension>(const MotionRef<Dimension>& ref) {
-        const Curves<Dimension> curves = ref.curves();
-        for (const BeadId bead : beads) {
-          require_index("bead", bead, curves.bead_count());
-          for (int k = 0; k <= curves.own_degree(); ++k)
-            for (int axis = 0; axis < Dimension; ++axis)
-              visit(bead, k, axis, curves.coordinate(bead, k, axis));
-        }
-      },
-      motion.ref());
-}
-
 }  // namespace
 
 std::unique_ptr<SceneMotion> make_scene_motion(const Scene& scene) {
@@ -86,14 +71,46 @@ std::unique_ptr<SceneMotion> make_scene_motion(const Scene& scene) {
   }
 }
 
+std::vector<double> coordinates_of(const SceneMotion& motion, std::span<const BeadId> beads) {
+  std::vector<double> numbers;
+  std::visit(
+      [&]<int Dimension>(const MotionRef<Dimension>& ref) {
+        const Curves<Dimension> curves = ref.curves();
+        for (const BeadId bead : beads) {
+          require_index("bead", bead, curves.bead_count());
+          for (int k = 0; k <= curves.own_degree(); ++k)
+            for (int axis = 0; axis < Dimension; ++axis) numbers.push_back(curves.coordinate(bead, k, axis));
+        }
+      },
+      motion.ref());
+  return numbers;
+}
+
+void set_coordinates(SceneMotion& motion, std::span<const BeadId> beads, std::span<const double> numbers) {
+  std::visit(
+      [&]<int Dimension>(const MotionRef<Dimension>& ref) {
+        const int degree = ref.curves().own_degree();
+        const std::size_t expected = beads.size() * static_cast<std::size_t>((degree + 1) * Dimension);
+        if (numbers.size() != expected)
+          throw std::invalid_argument(
+              fmt::format("{} coordinates for {} beads: expected {}, {} control points of {} axes a bead",
+                          numbers.size(), beads.size(), expected, degree + 1, Dimension));
+        auto next = numbers.begin();
+        for (const BeadId bead : beads)
+          for (int k = 0; k <= degree; ++k)
+            for (int axis = 0; axis < Dimension; ++axis) motion.set_coordinate(bead, k, axis, *next++);
+      },
+      motion.ref());
+}
+
 NewCourses::NewCourses(SceneMotion& motion, std::vector<BeadId> beads)
     : motion_(motion), beads_(std::move(beads)) {
   std::sort(beads_.begin(), beads_.end());
-  old_ = now();
+  old_ = coordinates_of(motion_, beads_);
 }
 
 NewCourses::~NewCourses() {
-  if (!for_good_) set(old_);
+  if (!for_good_) set_coordinates(motion_, beads_, old_);
 }
 
 void NewCourses::load(std::size_t) {
@@ -108,25 +125,13 @@ void NewCourses::set_coordinate(BeadId bead, int k, int axis, double value) {
 }
 
 void NewCourses::hold_back() {
-  new_ = now();
-  set(old_);
+  new_ = coordinates_of(motion_, beads_);
+  set_coordinates(motion_, beads_, old_);
 }
 
 void NewCourses::set_for_good() {
   for_good_ = true;
-  set(new_);
-}
-
-std::vector<double> NewCourses::now() const {
-  std::vector<double> numbers;
-  for_numbers(motion_, beads_, [&](BeadId, int, int, double value) { numbers.push_back(value); });
-  return numbers;
-}
-
-void NewCourses::set(const std::vector<double>& numbers) {
-  auto next = numbers.begin();
-  for_numbers(motion_, beads_,
-              [&](BeadId bead, int k, int axis, double) { motion_.set_coordinate(bead, k, axis, *next++); });
+  set_coordinates(motion_, beads_, new_);
 }
 
 }  // namespace kds

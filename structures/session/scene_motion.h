@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -30,6 +31,12 @@ class SceneMotion {
 /// The scene must outlive the motion. Throws InputError if the degree is above highest_degree.
 [[nodiscard]] std::unique_ptr<SceneMotion> make_scene_motion(const Scene& scene);
 
+/// Returns the coordinates of these beads, ordered by bead, control point and axis. Throws
+/// std::invalid_argument if a bead does not exist.
+[[nodiscard]] std::vector<double> coordinates_of(const SceneMotion& motion, std::span<const BeadId> beads);
+/// Sets them. Throws std::invalid_argument also if there are more or fewer numbers, or one is not finite.
+void set_coordinates(SceneMotion& motion, std::span<const BeadId> beads, std::span<const double> numbers);
+
 /// A view of a step's motion through which a user gives some beads other curves. The new curves are tried
 /// first: if any exception is thrown meanwhile, nothing has changed.
 class NewCourses final : public SceneMotion {
@@ -54,10 +61,6 @@ class NewCourses final : public SceneMotion {
   void set_for_good();
 
  private:
-  /// Returns the coordinates of these beads, ordered by bead, control point and axis.
-  [[nodiscard]] std::vector<double> now() const;
-  void set(const std::vector<double>& numbers);
-
   SceneMotion& motion_;
   std::vector<BeadId> beads_;
   std::vector<double> old_, new_;
