@@ -9,19 +9,34 @@
 
 namespace kds {
 
+namespace {
+
+/// Calls `visit` with the first edits of `edits`, which have at most this many events before them, and drops
+/// them from the list.
+template <class Visit>
+void take_edits(std::span<const LoggedEdit>& edits, std::size_t events_before, const Visit& visit) {
+  for (; !edits.empty() && edits.front().events_before <= events_before; edits = edits.subspan(1))
+    visit(edits.front().edit);
+}
+
+}  // namespace
+
 void KnownEvents::build_for_replay() {
   simulator_.recording_ = false;
   simulator_.build();
   simulator_.recording_ = true;
 }
 
-void KnownEvents::replay_step(std::span<const ReplayedEvent> events) {
+void KnownEvents::replay_step(std::span<const ReplayedEvent> events, std::span<const LoggedEdit> edits,
+                              const std::function<void(const Edit&)>& set_curves) {
   Simulator& s = simulator_;
   const Simulator::ComputeScope scope(s);
   s.require(Simulator::Phase::between_steps, "a step");
   s.begin_step();
-  for (const ReplayedEvent& event : events) {
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const ReplayedEvent& event = events[i];
     InterruptionCheck::ask();
+    take_edits(edits, i, set_curves);
     s.now_ = Instant(FailureTime{event.lower, event.upper, 0, false});
     s.watch_.charge(Simulator::lane_of(event.structure));
     try {
@@ -32,6 +47,7 @@ void KnownEvents::replay_step(std::span<const ReplayedEvent> events) {
     s.record(event.structure, event.change);
     s.watch_.charge(Simulator::engine_lane);
   }
+  take_edits(edits, events.size(), set_curves);
   s.finish_step();
 }
 
@@ -58,15 +74,18 @@ RelayedEvent KnownEvents::event_to_relay(const Event& event, bool first_at_its_t
 }
 
 void KnownEvents::relay(std::size_t step, const FrameStamp& from, const FrameStamp& to,
-                        std::span<const RelayedEvent> events) {
+                        std::span<const RelayedEvent> events, std::span<const LoggedEdit> edits) {
   Simulator& s = simulator_;
   const Simulator::ComputeScope scope(s);
   s.require(Simulator::Phase::new_run, "relay()");
   s.step_ = step;
   s.set_frames(from, to);
   const std::size_t before = s.watch_.charge(Simulator::listener_lane);
-  for (const RelayedEvent& event : events) {
+  const auto tell_edit = [&s](const Edit& edit) { s.tell(edit); };
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const RelayedEvent& event = events[i];
     InterruptionCheck::ask();
+    take_edits(edits, i, tell_edit);
     require_index("structure", event.structure, s.structures_.size());
     if (event.first_at_its_time) ++s.moment_;
     s.held_.function = event.certain ? event.certain->function : nullptr;
@@ -75,6 +94,7 @@ void KnownEvents::relay(std::size_t step, const FrameStamp& from, const FrameSta
     s.notify(event.structure, event.change, event.bracket, event.decided_by,
              [&event] { return event.certain ? event.certain->rounded : std::nullopt; });
   }
+  take_edits(edits, events.size(), tell_edit);
   s.watch_.charge(before);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,7 +46,9 @@ class KnownEvents {
   /// Like Simulator::build and run_step, but the changes come from a log. Throws std::invalid_argument, with
   /// the event's `where`, if a change cannot be made.
   void build_for_replay();
-  void replay_step(std::span<const ReplayedEvent> events);
+  /// Calls `set_curves` with each edit when the events before it in `events` have been made.
+  void replay_step(std::span<const ReplayedEvent> events, std::span<const LoggedEdit> edits = {},
+                   const std::function<void(const Edit&)>& set_curves = {});
 
   // A run in parts (structures/session/parallel_run.h): several simulators run some steps each. Another
   // simulator, whose structures only have names, joins them.
@@ -54,9 +57,10 @@ class KnownEvents {
   void start_at(std::size_t step);
   /// Returns a copy of the present event that another simulator can relay.
   [[nodiscard]] RelayedEvent event_to_relay(const Event& event, bool first_at_its_time, bool exact) const;
-  /// Tells the listeners of the events of a step that another simulator ran. The events are not counted.
+  /// Tells the listeners of the events and edits of a step that another simulator ran. The events are not
+  /// counted.
   void relay(std::size_t step, const FrameStamp& from, const FrameStamp& to,
-             std::span<const RelayedEvent> events);
+             std::span<const RelayedEvent> events, std::span<const LoggedEdit> edits = {});
   /// Adds the fingerprint, comparisons, exact work and seconds of another simulator, which has run other
   /// steps with the same structures.
   void join(const Simulator& part);

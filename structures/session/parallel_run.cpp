@@ -103,6 +103,7 @@ std::size_t all_threads() { return std::max(1U, std::thread::hardware_concurrenc
 /// Results of a part at a frame, for all structures.
 struct ParallelRun::Frame {
   std::vector<RelayedEvent> events;          ///< of the step that led here
+  std::vector<LoggedEdit> edits;             ///< of this step
   std::vector<std::uint64_t> external;       ///< number of external events in it, for each structure
   std::vector<std::vector<DumpFile>> dumps;  ///< of each structure
   std::vector<std::optional<CombinatorialElements>> elements;
@@ -134,12 +135,14 @@ class ParallelRun::Recorder final : public EventListener {
     last_moment_ = simulator_.moment();
     events.push_back(KnownEvents(simulator_).event_to_relay(event, is_new, exact));
   }
+  void on_edit(const Edit& edit) override { edits.push_back({events.size(), edit}); }
   [[nodiscard]] bool prints_time_of(const Event& event) const override {
     return std::any_of(listeners_.begin(), listeners_.end(),
                        [&](const auto* l) { return l->prints_time_of(event); });
   }
 
   std::vector<RelayedEvent> events;  // of the step under way
+  std::vector<LoggedEdit> edits;     // of the step under way
 
  private:
   const std::vector<EventListener*>& listeners_;
@@ -383,12 +386,26 @@ void ParallelRun::run_uncut(const std::function<void(std::size_t)>& at_frame) {
   for (std::size_t step = 0; own_->load_step(); ++step) {
     around_(*own_, step, [&] {
       if (observer_ != nullptr) observer_->in_step(step);
-      own_->run_step();
+      run_step(*own_, step);
     });
     reach(step + 1);
   }
   // An error that can occur only after all steps is reported for the last step.
   around_(*own_, scene_.step_count() - 1, [&] { own_->finish(); });
+}
+
+/// Runs a step, whose motion is loaded, with its edits.
+void ParallelRun::run_step(KineticRun& run, std::size_t step) const {
+  for (const Edit& edit : std::ranges::equal_range(edits_, step, {}, &Edit::step)) run.repeat(edit);
+  static_cast<void>(run.run_step());
+}
+
+/// Returns whether edits make the part that begins at this frame go on from the part before. New courses must
+/// end where the next step begins, which only the run that has them checks.
+bool ParallelRun::goes_on(std::size_t first) const {
+  return std::any_of(edits_.begin(), edits_.end(), [first](const Edit& edit) {
+    return edit.kind == Edit::Kind::change ? edit.step + 1 == first : edit.step < first;
+  });
 }
 
 /// Reads parts ahead: some for each thread to run, and as many again that wait to be joined.
@@ -406,7 +423,7 @@ void ParallelRun::run_in_parts(const std::function<void(std::size_t)>& at_frame)
     while (next < steps && in_flight.size() < (in_vain ? 1 : 2 * threads_ + 1)) {
       in_flight.push_back(read_part(next));
       next = in_flight.back()->last;
-      if (in_vain) continue;
+      if (in_vain || goes_on(in_flight.back()->first)) continue;
       in_flight.back()->is_submitted = true;
       workers.submit(*in_flight.back());
     }
@@ -417,7 +434,7 @@ void ParallelRun::run_in_parts(const std::function<void(std::size_t)>& at_frame)
       join(part, at_frame);
     } else {
       counts_.run_again += part.is_submitted ? 1 : 0;
-      ++again_in_a_row;
+      again_in_a_row += in_vain || part.is_submitted ? 1 : 0;
       Part anew{part.first, part.last, part.frames};
       run_part(anew, std::move(truth_));
       join(anew, at_frame);
@@ -465,7 +482,7 @@ void ParallelRun::run_part(Part& part, std::unique_ptr<Worker> worker) const {
       static_cast<void>(run.load_step());
       around_(run, step, [&] {
         if (worker->observer) worker->observer->in_step(step);
-        static_cast<void>(run.run_step());
+        run_step(run, step);
       });
       if (worker->observer) worker->observer->at_frame(step + 1);
       note_frame(part, *worker, step + 1);
@@ -483,6 +500,7 @@ void ParallelRun::note_frame(Part& part, Worker& worker, std::size_t number) con
   KineticRun& run = worker.run;
   Frame frame;
   frame.events = std::exchange(worker.recorder.events, {});
+  frame.edits = std::exchange(worker.recorder.edits, {});
   worker.recorder.events.reserve(frame.events.size() + frame.events.size() / 8);  // steps resemble each other
   const bool is_end = number == 0 || number == scene_.step_count();
   for (std::size_t s = 0; s < run.structures().size(); ++s) {
@@ -530,7 +548,8 @@ void ParallelRun::join(Part& part, const std::function<void(std::size_t)>& at_fr
     part.reached.pop_front();
   }
   if (part.error) {
-    if (part.worker && number > 0) tell(number - 1, part.worker->recorder.events);
+    if (part.worker && number > 0)
+      tell(number - 1, part.worker->recorder.events, part.worker->recorder.edits);
     std::rethrow_exception(part.error);
   }
   if (truth_) retire(std::move(truth_));
@@ -538,7 +557,7 @@ void ParallelRun::join(Part& part, const std::function<void(std::size_t)>& at_fr
 }
 
 void ParallelRun::show(Frame& frame, std::size_t number, const std::function<void(std::size_t)>& at_frame) {
-  if (number > 0) tell(number - 1, frame.events);
+  if (number > 0) tell(number - 1, frame.events, frame.edits);
   for (std::size_t s = 0; s < structures_.size(); ++s) structures_[s]->show(frame, s);
   static_seconds_.resize(structures_.size(), 0);
   for (std::size_t s = 0; s < frame.static_seconds.size(); ++s) static_seconds_[s] += frame.static_seconds[s];
@@ -546,10 +565,11 @@ void ParallelRun::show(Frame& frame, std::size_t number, const std::function<voi
   scene_.frames()->release(number - std::min<std::size_t>(number, 2));
 }
 
-/// Tells the listeners of the events of a step.
-void ParallelRun::tell(std::size_t step, const std::vector<RelayedEvent>& events) {
-  if (listeners_.empty() || events.empty()) return;
-  KnownEvents(joined_->simulator()).relay(step, scene_.stamp(step), scene_.stamp(step + 1), events);
+/// Tells the listeners of the events and edits of a step.
+void ParallelRun::tell(std::size_t step, const std::vector<RelayedEvent>& events,
+                       const std::vector<LoggedEdit>& edits) {
+  if (listeners_.empty() || (events.empty() && edits.empty())) return;
+  KnownEvents(joined_->simulator()).relay(step, scene_.stamp(step), scene_.stamp(step + 1), events, edits);
 }
 
 /// Adds the counts of a worker whose parts have all been joined.

@@ -9,6 +9,9 @@
 // positions decided that state (cells that are flat, ties), the part is run again from the true state, and
 // PartCounts counts it.
 //
+// A part goes on from the part before, on the caller's thread, if a bead was inserted or erased earlier or if
+// beads changed course in the step before. Other parts may contain edits.
+//
 // Counts of work (certificates never searched because of slack, stages, comparisons, peaks) depend on the
 // cuts.
 
@@ -20,6 +23,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kds/known_events.h"
@@ -118,6 +122,9 @@ class ParallelRun {
   /// run is then not cut.
   void limit_work(std::uint64_t most);
 
+  /// Makes edits of another run again (KineticRun::repeat), given in their order. Call it before `run`.
+  void repeat(std::vector<Edit> edits) { edits_ = std::move(edits); }
+
   /// Runs all steps and finishes. Calls `at_frame` at each frame reached, including the first, on this
   /// thread. If a step throws, all events before the exception are told first. Asks this thread's checks
   /// (motions/base/interruption.h) while it waits; if one throws, all parts end first. Call it once.
@@ -138,13 +145,15 @@ class ParallelRun {
   void decide();
   void run_uncut(const std::function<void(std::size_t)>& at_frame);
   void run_in_parts(const std::function<void(std::size_t)>& at_frame);
+  void run_step(KineticRun& run, std::size_t step) const;
+  [[nodiscard]] bool goes_on(std::size_t first) const;
   [[nodiscard]] std::unique_ptr<Part> read_part(std::size_t first) const;
   void run_part(Part& part, std::unique_ptr<Worker> worker) const;
   void note_frame(Part& part, Worker& worker, std::size_t number) const;
   [[nodiscard]] bool continues(const Part& part) const;
   void join(Part& part, const std::function<void(std::size_t)>& at_frame);
   void show(Frame& frame, std::size_t number, const std::function<void(std::size_t)>& at_frame);
-  void tell(std::size_t step, const std::vector<RelayedEvent>& events);
+  void tell(std::size_t step, const std::vector<RelayedEvent>& events, const std::vector<LoggedEdit>& edits);
   void retire(std::unique_ptr<Worker> worker);
   [[nodiscard]] static std::optional<States> states_of(const KineticRun& run);
 
@@ -168,6 +177,7 @@ class ParallelRun {
   std::vector<double> static_seconds_;
   mutable std::atomic<bool> is_stopped_ = false;  // set when the run ends early
   PartCounts counts_;
+  std::vector<Edit> edits_;
 };
 
 }  // namespace kds
