@@ -411,6 +411,11 @@ int OutputStream::Buffer::sync() {
   return error == 0 ? 0 : -1;
 }
 
+OutputStream::Buffer::pos_type OutputStream::Buffer::seekpos(pos_type position, std::ios_base::openmode) {
+  const bool done = sync() == 0 && ::lseek(descriptor, static_cast<off_t>(position), SEEK_SET) >= 0;
+  return done ? position : pos_type(off_type(-1));
+}
+
 OutputStream::OutputStream(int descriptor, std::string subject)
     : std::ostream(nullptr), subject_(std::move(subject)), buffer_(descriptor) {
   rdbuf(&buffer_);

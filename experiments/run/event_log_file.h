@@ -5,8 +5,15 @@
 //   kds event log 2
 //   {"version": ..., "arguments": [...], "beads": ..., "steps": ...}
 //   STEP STRUCTURE KIND LOWER UPPER ID...
-//   step STEP EVENTS HASH                          (after the events of each step that has events)
+//   edit STEP at|before TIME insert|erase STRUCTURE BEAD
+//   edit STEP at|before TIME change BEADS
+//   curve BEAD COORDINATE...                       (for each bead that changes course)
+//   step STEP EVENTS HASH                          (after the lines of each step that has any)
 //   end EVENTS FINGERPRINT
+//
+// A log with edits has version 3 in its first line. An edit stands before the events that it causes. Its time
+// is exactly TIME (`at`) or that of the last failure before TIME (`before`). Times and coordinates of edits
+// are exact hexadecimal numbers.
 //
 // The time of an event lies strictly between LOWER and UPPER, or equals both. HASH is a hash of the step's
 // lines, so that a line which the run did not write is detected. The arguments are the arguments of kds run.
@@ -14,7 +21,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/output/output_files.h"
@@ -27,20 +36,27 @@ namespace kds {
 
 class EventLogWriter final : public EventListener {
  public:
-  EventLogWriter(const std::filesystem::path& path, const RunOptions& options, const Scene& scene);
+  EventLogWriter(const std::filesystem::path& path, const RunOptions& options, const Scene& scene,
+                 const std::vector<KineticStructure*>& structures);
   void on_event(const Event& event) override;
+  void on_edit(const Edit& edit) override;
   /// Writes the last line of the log.
   void end(std::uint64_t fingerprint);
   [[nodiscard]] AtomicFiles& file() { return file_; }
 
  private:
+  void begin(std::size_t step);
+  void add(const std::string& line);
   void end_step();
 
   AtomicFiles file_;
   std::ostream& stream_;
+  std::vector<std::string_view> structures_;
+  bool has_edits_ = false;
   std::uint64_t events_ = 0;
-  std::size_t step_ = 0;           ///< step of the events counted in step_events_
-  std::uint64_t step_events_ = 0;  ///< 0 before the step's first event
+  std::size_t step_ = 0;  ///< step of the lines hashed in step_hash_
+  bool in_step_ = false;  ///< whether step_hash_ has a line
+  std::uint64_t step_events_ = 0;
   WordHash step_hash_;
 };
 
@@ -50,6 +66,7 @@ struct EventLogHeader {
   std::vector<std::string> arguments;
   std::size_t beads = 0;
   std::size_t steps = 0;
+  bool has_edits = false;  ///< version 3
 };
 
 /// Reads a log event by event. Throws an InputError that names the file and line.
@@ -63,10 +80,12 @@ class EventLogReader {
     std::string structure, kind;
     double lower = 0, upper = 0;
     std::vector<BeadId> ids;
+    std::optional<Edit>
+        edit;  ///< if set, only `line`, `step` and `structure`, that of the edit, are valid too
   };
 
   [[nodiscard]] const EventLogHeader& header() const { return header_; }
-  /// Returns the next event, or null after the last event. The pointer is valid until the next call.
+  /// Returns the next event or edit, or null after the last. The pointer is valid until the next call.
   [[nodiscard]] const Entry* next();
   /// The fingerprint in the last line. Valid at the end of the log.
   [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_; }
@@ -74,7 +93,11 @@ class EventLogReader {
   [[nodiscard]] std::uint64_t events() const { return events_; }
 
  private:
+  void begin_entry(std::size_t step);
   void read_event(std::string_view line);
+  void read_edit(std::string_view line);
+  void read_curve(Edit& edit);
+  void add_bead(Edit& edit, BeadId bead) const;
   void read_step_end(std::string_view line);
   void read_end(std::string_view line);
   [[nodiscard]] std::string where() const;
@@ -83,6 +106,7 @@ class EventLogReader {
   EventLogHeader header_;
   Entry entry_;
   std::uint64_t events_ = 0, step_events_ = 0;
+  bool in_step_ = false;
   std::size_t first_free_step_ = 0;  ///< the first step whose events have not ended
   WordHash step_hash_;
   bool ended_ = false;

@@ -52,8 +52,8 @@ class LogComparison final : public EventListener {
     if (entry == nullptr) {
       part(fmt::format("{}: ends before an event of {} in step {}", name_, event.structure, event.step));
     } else if (!is_event(*entry, event)) {
-      part(fmt::format("{}:{}: an event of {} in step {}, but the run has {} {} {} in step {}", name_,
-                       entry->line, entry->structure, entry->step, event.structure, event.kind.name,
+      part(fmt::format("{}:{}: {}, but the run has {} {} {} in step {}", name_, entry->line, text_of(*entry),
+                       event.structure, event.kind.name,
                        fmt::join(event.change.ids.begin(), event.change.ids.begin() + event.change.size, " "),
                        event.step));
     } else if (!is_time(*entry, event)) {
@@ -62,26 +62,40 @@ class LogComparison final : public EventListener {
     }
   }
 
+  // The run makes the edits of the log, so only their places among the events can differ.
+  void on_edit(const Edit& edit) override {
+    if (difference_) return;
+    const EventLogReader::Entry* const entry = log_.next();
+    if (entry == nullptr || !entry->edit || entry->edit->where != edit.where)
+      part(fmt::format("{}: an edit, which does not stand where the run makes it", edit.where));
+  }
+
   // Called after the last event of the run: the log must have no further event either.
   std::optional<std::string> finish() {
     if (!difference_)
       if (const EventLogReader::Entry* const entry = log_.next())
-        part(fmt::format("{}:{}: an event of {} in step {} that does not happen", name_, entry->line,
-                         entry->structure, entry->step));
+        part(fmt::format("{}:{}: {} that does not happen", name_, entry->line, text_of(*entry)));
     return std::move(difference_);
   }
 
  private:
+  static std::string text_of(const EventLogReader::Entry& entry) {
+    return entry.edit ? fmt::format("an edit in step {}", entry.step)
+                      : fmt::format("an event of {} in step {}", entry.structure, entry.step);
+  }
+
   static bool is_event(const EventLogReader::Entry& entry, const Event& event) {
     const Change& change = event.change;
-    return entry.step == event.step && entry.structure == event.structure && entry.kind == event.kind.name &&
+    return !entry.edit && entry.step == event.step && entry.structure == event.structure &&
+           entry.kind == event.kind.name &&
            std::equal(entry.ids.begin(), entry.ids.end(), change.ids.begin(),
                       change.ids.begin() + change.size);
   }
 
-  // Brackets in logs of earlier versions are not canonical, so they need only enclose the time.
+  // Brackets of earlier versions of kds are not canonical, so they need only enclose the time.
   bool is_time(const EventLogReader::Entry& entry, const Event& event) const {
     if (entry.lower == event.lower && entry.upper == event.upper) return true;
+    if (log_.header().has_edits) return false;
     ExactTime& now = simulator_.now().exact();
     ExactTime lower{Dyadic(entry.lower)}, upper{Dyadic(entry.upper)};
     const int after_lower = ExactTime::compare(lower, now), before_upper = ExactTime::compare(now, upper);
@@ -100,6 +114,23 @@ class LogComparison final : public EventListener {
   const Simulator& simulator_;
   std::optional<std::string> difference_;
 };
+
+// Returns the edits of a log, which has some.
+std::vector<Edit> logged_edits(const std::filesystem::path& path, const std::vector<KineticStructure*>& all) {
+  std::vector<Edit> edits;
+  EventLogReader log(path);
+  while (const EventLogReader::Entry* const entry = log.next()) {
+    if (!entry->edit) continue;
+    Edit& edit = edits.emplace_back(*entry->edit);
+    if (edit.kind == Edit::Kind::change) continue;
+    const auto named = [&](const KineticStructure* one) { return one->name() == entry->structure; };
+    const auto found = std::find_if(all.begin(), all.end(), named);
+    if (found == all.end())
+      throw InputError(fmt::format("{}: the run has no structure {}", edit.where, entry->structure));
+    edit.structure = static_cast<std::size_t>(found - all.begin());
+  }
+  return edits;
+}
 
 // Returns the options of the logged run. Throws an InputError that names the file if it is not a log.
 RunOptions logged_run(const std::filesystem::path& log) {
@@ -120,15 +151,19 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
                                  scene.bead_count(), scene.step_count(), log.header().beads,
                                  log.header().steps));
   }
-  const auto run = open_run(options, scene, options.audit);
+  // Brackets of logs without edits may need exact times, which are known on one thread.
+  RunOptions opened = options;
+  if (!log.header().has_edits || (results != nullptr && results->has_page())) opened.threads = 1;
+  const auto run = open_parallel_run(opened, scene, options.audit, {}, warnings.hold());
+  if (log.header().has_edits) run->repeat(logged_edits(path, run->whole().structures()));
   LogComparison comparison(log, name, run->simulator());
   run->listen(comparison);
   ProgressWithinSteps within(progress, scene.step_count());
   if (options.audit == AuditMode::events) run->listen(within);
-  StepCounts counts(*run, scene);
-  if (results != nullptr) results->begin(scene, *run, options);
+  StepCounts counts(run->whole(), scene);
+  if (results != nullptr) results->begin(scene, run->whole(), options);
   run_steps(*run, options, [&](std::size_t frame) {
-    if (results != nullptr) results->add_frame(frame, *run);
+    if (results != nullptr) results->add_frame(frame, run->whole());
     if (frame == 0) {
       counts.begin();
       return warnings.release(warn);
@@ -141,7 +176,9 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
 
   ReplayReport replay;
   replay.difference = comparison.finish();
-  replay.run = report_of(*run, scene, options, counts);
+  replay.run = report_of(run->whole(), scene, options, counts);
+  replay.run.threads = run->threads();
+  replay.run.parts = run->parts();
   if (options.certify) {
     replay.run.stride = certify_stride(options, scene);
     if (results != nullptr) results->add_certificate(*replay.run.stride, scene);

@@ -32,6 +32,8 @@ class RunResults {
         events_path_(std::move(events)),
         page_path_(std::move(view)) {}
 
+  /// Returns whether a page shows the run. It reads the structures while the run goes on.
+  [[nodiscard]] bool has_page() const { return page_path_.has_value(); }
   /// Starts the output files of a run with these options once the input is accepted. The files listen to the
   /// run, which must not run after this object is destroyed. The scene must remain until `end_run`. In a
   /// certified run, contacts are reported with `add_certificate`.

@@ -1,16 +1,22 @@
 // For any log, a replay ends with the same fingerprint, with another fingerprint, or with one line that
 // explains what is wrong with the log.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
+#include "experiments/run/event_log_file.h"
+#include "experiments/run/load_scene.h"
 #include "experiments/run/replay_command.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_results.h"
@@ -106,7 +112,8 @@ void mend(Lines& lines) {
   for (std::size_t i = 2; i < lines.size(); ++i) {
     Lines words = words_of(lines[i]);
     if (lines[i].starts_with("step ") && words.size() == 4) {
-      words[1] = words_of(lines[i - 1])[0];
+      if (const std::string first = words_of(lines[i - 1])[0]; first != "edit" && first != "curve")
+        words[1] = first;
       words[2] = std::to_string(in_step);
       words[3] = hex_digits(hash.value());
       lines[i] = joined(words);
@@ -118,6 +125,7 @@ void mend(Lines& lines) {
     } else {
       for (const char c : lines[i]) hash.add(static_cast<unsigned char>(c));
       hash.add('\n');
+      if (lines[i].starts_with("edit ") || lines[i].starts_with("curve ")) continue;
       ++in_step;
       ++all;
     }
@@ -246,6 +254,164 @@ TEST(ReplayFuzz, LogsOfValuesThatAreGoneAreRefused) {
     EXPECT_EQ(replay(write_log(lines, directory), &message), Outcome::refused);
     EXPECT_THAT(message, testing::HasSubstr(std::string("spoiled.log:2: the run's arguments: ") + why));
   }
+}
+
+/// Writes beads that oscillate, each in its own way.
+std::string oscillating_beads(int beads, int frames, double speed, const ScratchDirectory& directory) {
+  std::string text;
+  for (int frame = 0; frame < frames; ++frame) {
+    text += fmt::format("{}\nframe {}\n", beads, frame);
+    for (int b = 0; b < beads; ++b) {
+      const double phase = speed * frame * (1 + 0.1 * (b % 7)) + b;
+      text +=
+          fmt::format("C {} {} {}\n", b + 0.8 * std::sin(phase), std::cos(2 * phase), std::sin(b + phase));
+    }
+  }
+  return directory.file("beads.xyz", text);
+}
+
+/// Gives the bead the positions of another until the end of the step.
+void swerve(KineticRun& run, BeadId bead, BeadId other) {
+  run.change_motion({bead}, [&](SceneMotion& motion) {
+    const std::vector<double> course = coordinates_of(motion, std::vector{other});
+    for (int axis = 0; axis < 3; ++axis)
+      motion.set_coordinate(bead, 0, axis, course[static_cast<std::size_t>(axis)]);
+  });
+}
+
+/// Runs with edits at times of doubles and of events, and writes the log.
+Lines edited_log(const Arguments& arguments, const ScratchDirectory& directory,
+                 const std::function<void(KineticRun&)>& make_edits) {
+  const RunOptions options = parse_run_options(arguments);
+  const Scene scene = load_scene(options, [](const std::string&) {});
+  const auto run = open_run(options, scene, AuditMode::none);
+  const std::string path = (directory / "edited.log").string();
+  EventLogWriter log(path, options, scene, run->structures());
+  run->listen(log);
+  make_edits(*run);
+  run->finish();
+  log.end(run->simulator().fingerprint());
+  commit_together({&log.file()});
+  Lines lines = split(content_of(path), '\n');
+  lines.pop_back();
+  return lines;
+}
+
+TEST(EditedLogs, AreReplayedFromTheFile) {
+  const ScratchDirectory directory;
+  const std::string beads = oscillating_beads(50, 441, 0.02, directory);
+  const auto make_edits = [](KineticRun& run) {
+    run.go_to(100.25);
+    swerve(run, 3, 9);
+    ASSERT_TRUE(run.next_event());
+    swerve(run, 4, 11);
+    swerve(run, 5, 3);
+    run.go_to(101);
+    ASSERT_TRUE(run.next_event());
+    swerve(run, 6, 7);
+    run.go_to(330.1);
+    run.erase(0, 12);
+    ASSERT_TRUE(run.next_event());
+    run.erase(1, 30);
+    run.go_to(430.5);
+    run.insert(0, 12);
+  };
+  const Lines lines = edited_log({beads, "--radius", "1", "--structures", "sorted,contacts", "--apart", "1"},
+                                 directory, make_edits);
+  EXPECT_EQ(lines[0], "kds event log 3");
+  EXPECT_EQ(std::ranges::count_if(lines, [](const auto& l) { return l.starts_with("edit "); }), 7);
+  const auto silent = [](auto&&...) {};
+  const ReplayReport replay = replay_log(directory / "edited.log", silent, silent);
+  EXPECT_TRUE(replay.same()) << replay.difference.value_or("");
+  EXPECT_EQ(replay.run.threads, std::min<std::size_t>(2, all_threads()));
+  EXPECT_EQ(replay.run.parts.parts > 1, replay.run.threads > 1);
+  EXPECT_EQ(replay.run.parts.run_again, 0U);
+  const ProgramRun program = run_program({"replay", (directory / "edited.log").string()});
+  EXPECT_EQ(program.code, 0);
+  EXPECT_THAT(program.out, testing::HasSubstr("fingerprint same"));
+}
+
+TEST(EditedLogs, WithoutEditsAreOfVersionTwo) {
+  const ScratchDirectory directory;
+  const Arguments arguments{oscillating_beads(10, 4, 0.5, directory), "--structures", "sorted"};
+  EXPECT_EQ(edited_log(arguments, directory, [](KineticRun&) {})[0], "kds event log 2");
+}
+
+TEST(EditedLogs, BadEditsAreRefusedInOneLine) {
+  const ScratchDirectory directory;
+  const Arguments arguments{oscillating_beads(12, 4, 0.5, directory), "--radius", "1", "--structures",
+                            "sorted,wrapped"};
+  const Lines right = edited_log(arguments, directory, [](KineticRun& run) {
+    run.go_to(1.25);
+    run.change_motion({2, 3}, coordinates_of(*run.motion(), std::vector<BeadId>{2, 3}));
+    EXPECT_TRUE(run.next_event());
+    run.erase(0, 5);
+  });
+  EXPECT_EQ(replay(write_log(right, directory)), Outcome::same);
+  const auto line_of = [&](const std::string& begin) {
+    return static_cast<std::size_t>(
+        std::ranges::find_if(right, [&](const auto& line) { return line.starts_with(begin); }) -
+        right.begin());
+  };
+  const std::size_t change = line_of("edit 1 at"), curve = change + 1, erase = line_of("edit 1 before");
+  const Lines words = words_of(right[curve]);
+  EXPECT_THAT(right[curve + 2], testing::HasSubstr("change"));  // edits stand before their events
+  EXPECT_THAT(right[erase + 1], testing::HasSubstr("sorted erase"));
+  const auto with = [&](std::size_t word, const std::string& value) {
+    Lines changed = words;
+    changed[word] = value;
+    return joined(changed);
+  };
+  const std::string erased = right[erase].substr(0, right[erase].find("erase"));
+  struct Bad {
+    std::size_t line;
+    std::string text;
+    std::size_t named;  ///< the line that is refused, from 0
+    std::string why;
+  };
+  const std::vector<Bad> bad{
+      {curve, joined(Lines(words.begin(), words.end() - 1)), curve + 1, "more or fewer coordinates than the"},
+      {curve, with(1, "12"), curve, "bead 12 of 12"},
+      {curve, with(2, "nan"), curve, "expected a finite coordinate such as -0x1.8p+2, found 'nan'"},
+      {curve, with(2, "0x1p+2000"), curve, "expected a finite coordinate"},
+      {curve, with(2, "1.5"), curve, "expected a finite coordinate"},
+      {change, "edit 1 at 0x1p-2 change 3", curve + 2, "expected 'curve', a bead and its control points"},
+      {change, "edit 1 at 0x1p-2 change 1", curve + 1, "expected a step, found 'curve'"},
+      {change, "edit 1 at 0x1p-2 bend 2", change, "expected one of insert, erase, change, found 'bend'"},
+      {change, "edit 1 at 0x5p-2 change 2", change, "expected a time from 0 to below 1"},
+      {change, "edit 1 at 1/4 change 2", change, "expected a time from 0 to below 1"},
+      {change, "edit 1 after 0x1p-2 change 2", change, "expected one of at, before, found 'after'"},
+      {change, "edit 3 at 0x1p-2 change 2", change, "step 3 of 3"},
+      {erase, erased + "erase sorted 12", erase, "bead 12 of 12"},
+      {erase, erased + "erase power 5", erase, "the run has no structure power"},
+      {erase, erased + "erase wrapped 5", erase, "wrapped: its beads cannot come and go"},
+      {erase, erased + "insert sorted 5", erase, "sorted: bead 5 is among its beads already"},
+      {erase, "edit 1 at 0x1p-3 erase sorted 5", erase, "a run until u = 1/8"}};
+  const auto expect_refused = [&](Lines lines, std::size_t named, const std::string& why) {
+    SCOPED_TRACE(why);
+    EXPECT_EQ(replay(write_log(lines, directory)), Outcome::refused);
+    mend(lines);
+    std::string message;
+    EXPECT_EQ(replay(write_log(lines, directory), &message), Outcome::refused);
+    EXPECT_THAT(message, testing::HasSubstr(fmt::format("spoiled.log:{}: ", named + 1)));
+    EXPECT_THAT(message, testing::HasSubstr(why));
+  };
+  for (const Bad& one : bad) {
+    Lines lines = right;
+    lines[one.line] = one.text;
+    expect_refused(lines, one.named, one.why);
+  }
+  Lines lines = right;
+  for (const std::size_t line : {curve, curve + 1}) lines[line].resize(lines[line].rfind(' '));
+  expect_refused(lines, change, "10 coordinates for 2 beads: expected 12");
+  lines = right;
+  std::swap(lines[erase], lines[erase + 1]);  // after the event that it causes
+  mend(lines);
+  EXPECT_EQ(replay(write_log(lines, directory)), Outcome::different);
+  lines = right;
+  lines[1].replace(lines[1].find("sorted,wrapped"), 14, "layered");
+  lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(erase));
+  expect_refused(lines, change, "its beads cannot change course within a step");
 }
 
 }  // namespace
