@@ -23,6 +23,7 @@
 #include "experiments/contacts/contacts_report.h"
 #include "experiments/output/result_json.h"
 #include "experiments/run/load_scene.h"
+#include "experiments/run/replay_command.h"
 #include "experiments/scenes/generate_command.h"
 #include "experiments/scenes/info_command.h"
 #include "experiments/scenes/scene_info.h"
@@ -134,6 +135,14 @@ py::dict contacts(const Arguments& arguments, const py::object& progress) {
   result["columns"] = columns;
   intervals->move_to(result);
   return result;
+}
+
+py::dict replay(const Arguments& arguments, const py::object& progress) {
+  return run_analysis(progress, [&](const Progress& show, const Warn& warn) {
+    const ReplayReport replay = replay_log(
+        arguments.at(0), [&](std::size_t done, double, std::size_t total) { show(done, total); }, warn);
+    return Found{parse_json(replay_json(replay, arguments[0])), comparison_table(replay.run)};
+  });
 }
 
 py::dict compare(const Arguments& arguments, const py::object& progress) {

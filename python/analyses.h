@@ -16,6 +16,8 @@ namespace kds::python {
 /// intervals: `first`, `second` (elements), `begin_frame`, `end_frame`, `begin_time`, `end_time`
 /// (picoseconds), `length`, `open_at_start`, `open_at_end`.
 [[nodiscard]] pybind11::dict contacts(const Arguments& arguments, const pybind11::object& progress);
+/// `kds replay`, whose only argument is the log.
+[[nodiscard]] pybind11::dict replay(const Arguments& arguments, const pybind11::object& progress);
 /// `kds compare`.
 [[nodiscard]] pybind11::dict compare(const Arguments& arguments, const pybind11::object& progress);
 /// `kds update`.

@@ -136,6 +136,7 @@ void bind_run(py::module_& module) {
            py::arg("radii"), py::arg("cell"))
       .def("execute", &RunHandle::execute, py::arg("progress") = py::none())
       .def("write_view", &RunHandle::write_view)
+      .def("write_log", &RunHandle::write_log)
       .def(
           "push",
           [](RunHandle& run, const RunHandle::Frame& frame, std::optional<double> picoseconds,
@@ -213,6 +214,7 @@ PYBIND11_MODULE(_kds, module) {
   module.def("version", kds::program_version);
   module.def("data_folder", [] { return kds::source_data_folder().string(); });
   module.def("contacts", kds::python::contacts);
+  module.def("replay", kds::python::replay);
   module.def("surface", kds::python::surface);
   module.def("voids", kds::python::voids);
   module.def("compare", kds::python::compare);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <stdexcept>
 
 #include "experiments/events/closest_approach.h"
@@ -32,12 +33,13 @@ RunOptions pushed_options(const Arguments& arguments) {
   return options;
 }
 
-void check_view(const RunOptions& options) {
-  if (!options.view) return;
+void check_output(const RunOptions& options, const std::string& name,
+                  const std::optional<std::filesystem::path>& path) {
+  if (!path) return;
   TakenPaths paths;
   paths.read(options);
-  paths.write("view", *options.view);
-  ensure_writable_file(*options.view, "view");
+  paths.write(name, *path);
+  ensure_writable_file(*path, name);
 }
 
 py::array_t<std::int64_t> array_of_pairs(const std::vector<BeadPair>& pairs) {
@@ -104,7 +106,7 @@ class RunHandle::Use {
 RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more,
                      std::shared_ptr<FramesInMemory> memory)
     : memory_(std::move(memory)), options_(parse_run_options(arguments)), only_(more.only) {
-  check_view(options_);
+  check_output(options_, "view", options_.view);
   const auto warn = [this](const std::string& warning) { warnings_.push_back(warning); };
   withdraw_live_end();
   scene_ = std::make_unique<Scene>(load_scene(options_, warn));
@@ -231,6 +233,16 @@ void RunHandle::execute(const py::object& progress) {
   }
 }
 
+void RunHandle::write_log(const std::string& path) {
+  if (memory_ || !scene_ || scene_->is_live() || !only_.empty())
+    throw InputError(
+        "log: a log names the files of its frames and starts with all beads; expected a path as "
+        "input, and no only");
+  check_output(options_, "log", path);
+  log_.emplace(path, options_, *scene_, run_->structures());
+  run_->listen(*log_);
+}
+
 void RunHandle::write_view() {
   const Use use(*this);
   commit_together({view_.value().files()});
@@ -267,12 +279,21 @@ bool RunHandle::next_event() {
 
 void RunHandle::go_to(double time) {
   const Use use(*this);
+  go(time);
+}
+
+void RunHandle::go(double time) {
+  if (log_ && run_->is_past(time))
+    throw InputError("frame: a run that writes a log cannot go back");
   run_->go_to(time);
 }
 
 void RunHandle::finish() {
   const Use use(*this);
   run_->finish();
+  if (!log_ || std::exchange(is_logged_, true)) return;
+  log_->end(run_->simulator().fingerprint());
+  commit_together({&log_->file()});
 }
 
 void RunHandle::audit() {
@@ -298,31 +319,19 @@ void RunHandle::bend(const std::vector<BeadId>& beads,
     throw InputError(
         fmt::format("points: has the shape {}; expected ({}, {}, {}): beads, control points, axes",
                     std::string(py::str(points.attr("shape"))), beads.size(), degree + 1, dimension));
-  const std::vector<double> numbers(points.data(), points.data() + points.size());
+  std::vector<double> numbers(points.data(), points.data() + points.size());
   const Use use(*this);
-  run_->change_motion(beads, [beads, numbers, degree, dimension](SceneMotion& motion) {
-    std::size_t next = 0;
-    for (const BeadId bead : beads)
-      for (int k = 0; k <= degree; ++k)
-        for (int axis = 0; axis < dimension; ++axis) motion.set_coordinate(bead, k, axis, numbers[next++]);
-  });
+  run_->change_motion(beads, std::move(numbers));
 }
 
 py::array_t<double> RunHandle::control_points() {
   const Reserved reserved(*this);
   if (!run_->load_step())
     throw std::logic_error("control_points(): no step is known; push another frame first");
-  return std::visit(
-      []<int D>(const MotionRef<D>& motion) {
-        const Curves<D> curves = motion.curves();
-        std::vector<double> numbers;
-        for (BeadId bead = 0; bead < curves.bead_count(); ++bead)
-          for (int k = 0; k <= curves.own_degree(); ++k)
-            for (int axis = 0; axis < D; ++axis) numbers.push_back(curves.coordinate(bead, k, axis));
-        return array_of(std::move(numbers),
-                        {static_cast<py::ssize_t>(curves.bead_count()), curves.own_degree() + 1, D});
-      },
-      run_->motion()->ref());
+  std::vector<BeadId> beads(scene().bead_count());
+  std::iota(beads.begin(), beads.end(), BeadId{0});
+  return array_of(coordinates_of(*run_->motion(), beads),
+                  {static_cast<py::ssize_t>(beads.size()), scene().degree() + 1, scene().dimension()});
 }
 
 double RunHandle::time() {
@@ -356,7 +365,7 @@ std::size_t RunHandle::index_of(const std::string& structure) const {
 
 Dyadic RunHandle::stand_at(std::optional<double> time) {
   if (std::exchange(is_behind_, false) && !time) time = static_cast<double>(scene().step_count());
-  if (time) run_->go_to(*time);
+  if (time) go(*time);
   run_->build();
   if (!run_->within_step()) return Dyadic(run_->simulator().step() == 0 ? 0.0 : 1.0);
   return time ? Dyadic(*time - static_cast<double>(run_->simulator().step()))

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/run/event_log_file.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_scene.h"
@@ -52,6 +53,9 @@ class RunHandle {
 
   /// Runs all steps, on several threads if the run can be cut, and keeps the report.
   void execute(const pybind11::object& progress);
+  /// Writes the log of the run, which must not have begun, to a file when `finish` is called. The run then
+  /// cannot go back. Throws InputError if no log can hold the run.
+  void write_log(const std::string& path);
   /// Writes the page of --view. Call it once, after `execute`.
   void write_view();
 
@@ -122,6 +126,7 @@ class RunHandle {
   /// Opens a run over `scene_` that stands at its start.
   void open();
   void listen();
+  void go(double time);
   /// Opens the run on several threads, or returns null if it takes one. Keeps a warning that says why.
   [[nodiscard]] std::unique_ptr<ParallelRun> open_parts();
   [[nodiscard]] ReplayLabels labels() const;
@@ -138,7 +143,9 @@ class RunHandle {
   std::unique_ptr<Scene> scene_;  // empty if frames are pushed
   std::unique_ptr<KineticRun> run_;
   bool is_behind_ = false;           // all steps were run on several threads, and `run_` stands at its start
-  std::optional<ViewResults> view_;  // listens to `run_`
+  std::optional<ViewResults> view_;  // listens to `run_`, as `log_`
+  std::optional<EventLogWriter> log_;
+  bool is_logged_ = false;  // whether the file of `log_` is complete
   EventRows events_;
   std::optional<RunReport> report_;
   bool has_static_times_ = false;

@@ -10,8 +10,8 @@ manual.
 """
 
 from ._analyses import (Collisions, Comparison, Conditions, Contacts, Replicas, Surface, Trade, Updates, Voids, collide,
-                        compare, conditions, contacts, contacts_of_parts, contacts_of_replicas, generate, surface, trade,
-                        update, voids)
+                        compare, conditions, contacts, contacts_of_parts, contacts_of_replicas, generate, replay, surface,
+                        trade, update, voids)
 from ._kds import AuditError, InputError
 from ._kds import version as _version
 from ._impacts import impacts
@@ -30,8 +30,9 @@ __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "ContactAnaly
            "InputWarning", "KineticAnalysis", "KineticRun", "Opened", "Replicas", "Run", "StreamFrame", "Structure",
            "Surface", "Trade", "Updates", "View", "Voids", "closest_by_diagram", "closest_pair", "collide",
            "colliding_pairs", "compare", "conditions", "contacts", "contacts_of_parts", "contacts_of_replicas",
-           "enclosing_sphere", "generate", "impacts", "layered_hierarchy", "power_diagram", "run", "separating_family",
-           "stream", "structure_names", "surface", "trade", "trusted_hierarchy", "update", "voids", "wrapped_hierarchy"]
+           "enclosing_sphere", "generate", "impacts", "layered_hierarchy", "power_diagram", "replay", "run",
+           "separating_family", "stream", "structure_names", "surface", "trade", "trusted_hierarchy", "update", "voids",
+           "wrapped_hierarchy"]
 
 
 def __getattr__(name):

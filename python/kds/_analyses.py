@@ -7,7 +7,7 @@ import os
 import numpy as np
 
 from . import _kds, _lifetimes, _plots
-from ._inputs import open_input
+from ._inputs import Input, open_input
 from ._options import INPUT, InputError, arguments, call, check_names, cutoff_text, flag, number, takes, warn
 from ._tables import Result, table, table_of_rows
 
@@ -27,6 +27,16 @@ def find(function, opened, given, known=(), verbose=False, unit="step"):
     found = call(function, opened.arguments + given, verbose=verbose, unit=unit)
     warn([line for line in found["warnings"] if line not in known])
     return found
+
+
+def replay(log, *, verbose=False):
+    """Repeats the run of an event log, with its edits, and compares every event. The file is written by
+    ``kds.KineticRun(..., log=path)`` or ``kds run --log``.
+
+    Returns a dictionary: ``log``, ``events`` (their number), ``logged_fingerprint``, ``same``, and ``difference`` (None if
+    there is none). Raises InputError if a line of the log was not written by a run, or if an edit cannot be made.
+    """
+    return json.loads(find(_kds.replay, Input([os.fspath(log)]), [], verbose=verbose)["json"])["replay"]
 
 
 class Contacts(Result):

@@ -1,5 +1,7 @@
 """Runs that the user drives: step by step, event by event, frame by frame."""
 
+import os
+
 import numpy as np
 
 from . import _kds
@@ -46,9 +48,13 @@ class KineticRun:
     """
 
     @takes("run")
-    def __init__(self, source, **options):
+    def __init__(self, source, *, log=None, **options):
+        """``log`` is the path of an event log with the edits, which :meth:`finish` writes (default: none). The source must
+        then be a path. Such a run cannot go back."""
         check_names(KineticRun.__init__, options)
         self._open(source, options)
+        if log is not None:
+            self._core.write_log(os.fspath(log))
 
     def _open(self, source, options):
         _warn_of_threads(options)
@@ -152,7 +158,7 @@ class KineticRun:
         return self._core.take_events()
 
     def finish(self):
-        """Runs all steps that are left and ends the run. Returns the events."""
+        """Runs all steps that are left, ends the run and writes its ``log``. Returns the events."""
         self._core.finish()
         return self._core.take_events()
 

@@ -561,6 +561,36 @@ class Driving(unittest.TestCase):
         self.assertFalse((run.power.edges() == 3).any())
         run.audit()
 
+    def test_edits_are_logged_and_replayed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            log = os.path.join(folder, "edited.kdslog")
+            options = {"topology": PDB, "radius": 2, "structures": ["contacts", "power"], "stop": 6}
+            run = kds.KineticRun(DCD, log=log, **options)
+            run.go_to(1.5)
+            run.erase("contacts", 3)
+            run.next_event()
+            points = run.control_points()[[5]]
+            points[0, 0] += 1
+            run.bend([5], points)
+            run.go_to(3.25)
+            run.insert("contacts", 3)
+            with self.assertRaisesRegex(kds.InputError, "^frame: a run that writes a log cannot go back"):
+                run.go_to(1)
+            self.assertFalse(os.path.exists(log))
+            run.finish()
+            found = kds.replay(log)
+            self.assertTrue(found["same"], found["difference"])
+            self.assertEqual(found["logged_fingerprint"], run.fingerprint)
+            self.assertTrue(program("replay", log)["replay"]["same"])
+            text = Path(log).read_text()
+            self.assertEqual(text.count("\nedit "), 3)
+            Path(log).write_text(text.replace("erase contacts 3", "erase contacts 4"))
+            with self.assertRaisesRegex(kds.InputError, r"edited.kdslog:\d+: the lines of step 1 are not those"):
+                kds.replay(log)
+            for source, more in ((self.positions, {}), (DCD, {"topology": PDB, "only": {"contacts": [1, 2, 3]}})):
+                with self.assertRaisesRegex(kds.InputError, "^log: a log names the files of its frames"):
+                    kds.KineticRun(source, radius=2, structures=["contacts"], log=log, **more)
+
     def test_structures_of_some_beads(self):
         run = kds.KineticRun(self.positions, radius=1, cutoff=4, structures=["contacts"], only={"contacts": range(10)})
         run.finish()
