@@ -81,7 +81,7 @@ py::dict run_analysis(const py::object& progress, const Find& find, bool reads_l
 /// The columns of all intervals of a report.
 struct Intervals {
   std::vector<std::int64_t> first, second;
-  std::vector<double> begin_frame, end_frame, begin_time, end_time, length;
+  std::vector<double> begin_frame, end_frame, begin_time, end_time, begin_step, end_step, length;
   std::vector<std::uint8_t> open_at_start, open_at_end;
 
   explicit Intervals(const ContactsReport& report) {
@@ -92,6 +92,8 @@ struct Intervals {
       end_frame.push_back(interval.end_frame);
       begin_time.push_back(interval.begin_picoseconds);
       end_time.push_back(interval.end_picoseconds);
+      begin_step.push_back(interval.begin);
+      end_step.push_back(interval.end);
       length.push_back(interval.length);
       open_at_start.push_back(interval.open_at_start ? 1 : 0);
       open_at_end.push_back(interval.open_at_end ? 1 : 0);
@@ -104,6 +106,8 @@ struct Intervals {
     found["end_frame"] = array_of(std::move(end_frame));
     found["begin_time"] = array_of(std::move(begin_time));
     found["end_time"] = array_of(std::move(end_time));
+    found["begin_step"] = array_of(std::move(begin_step));
+    found["end_step"] = array_of(std::move(end_step));
     found["length"] = array_of(std::move(length));
     found["open_at_start"] = array_of(std::move(open_at_start));
     found["open_at_end"] = array_of(std::move(open_at_end));
@@ -117,6 +121,7 @@ py::dict contacts(const Arguments& arguments, const py::object& progress) {
   std::vector<std::string> names;
   std::string columns;
   std::unique_ptr<Intervals> intervals;
+  std::vector<std::int64_t> frame_numbers;
   py::dict result = run_analysis(
       progress,
       [&](const Progress& look, const Warn& warn) {
@@ -128,11 +133,16 @@ py::dict contacts(const Arguments& arguments, const py::object& progress) {
         contacts.figures.pairs.clear();
         columns = contacts_csv(*contacts.report, contacts.figures);
         intervals = std::make_unique<Intervals>(*contacts.report);
+        const std::size_t steps = contacts.report->steps, first = contacts.report->first_frame;
+        for (std::size_t k = 0; k <= steps; ++k)
+          frame_numbers.push_back(static_cast<std::int64_t>(
+              first + k * (contacts.report->last_frame - first) / std::max<std::size_t>(steps, 1)));
         return found;
       },
       is_live(task));
   result["names"] = names;
   result["columns"] = columns;
+  result["frame_numbers"] = array_of(std::move(frame_numbers));
   intervals->move_to(result);
   return result;
 }

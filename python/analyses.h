@@ -14,7 +14,8 @@ namespace kds::python {
 
 /// `kds contacts`. Adds `columns`, the header of its CSV, `names` of the elements, and the arrays of all
 /// intervals: `first`, `second` (elements), `begin_frame`, `end_frame`, `begin_time`, `end_time`
-/// (picoseconds), `length`, `open_at_start`, `open_at_end`.
+/// (picoseconds), `begin_step`, `end_step` (counted in steps, whole only at a frame), `length`,
+/// `open_at_start`, `open_at_end`; and `frame_numbers`, those of all frames in the file.
 [[nodiscard]] pybind11::dict contacts(const Arguments& arguments, const pybind11::object& progress);
 /// `kds replay`, whose only argument is the log.
 [[nodiscard]] pybind11::dict replay(const Arguments& arguments, const pybind11::object& progress);

@@ -154,6 +154,7 @@ void bind_run(py::module_& module) {
       .def("erase", &RunHandle::erase)
       .def("bend", &RunHandle::bend)
       .def("control_points", &RunHandle::control_points)
+      .def("cell_points", &RunHandle::cell_points)
       .def("time", &RunHandle::time)
       .def("fingerprint", &RunHandle::fingerprint)
       .def("edges", &RunHandle::edges, py::arg("time") = py::none())

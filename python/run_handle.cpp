@@ -334,6 +334,19 @@ py::array_t<double> RunHandle::control_points() {
                   {static_cast<py::ssize_t>(beads.size()), scene().degree() + 1, scene().dimension()});
 }
 
+py::array_t<double> RunHandle::cell_points() {
+  const Reserved reserved(*this);
+  if (!run_->load_step()) throw std::logic_error("cell_points(): no step is known; push another frame first");
+  return std::visit(
+      []<int D>(const MotionRef<D>& motion) {
+        const Curves<D> curves = motion.curves();
+        const py::ssize_t vectors = curves.cell() == nullptr ? 0 : D, points = curves.own_degree() + 1;
+        std::vector<double> numbers(curves.cell(), curves.cell() + vectors * points * D);
+        return array_of(std::move(numbers), {vectors, points, D});
+      },
+      run_->motion()->ref());
+}
+
 double RunHandle::time() {
   const Reserved reserved(*this);
   Simulator& simulator = run_->simulator();

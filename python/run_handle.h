@@ -77,6 +77,9 @@ class RunHandle {
             const pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>& points);
   /// Returns the control points of the present step, of the shape (beads, degree + 1, dimension).
   [[nodiscard]] pybind11::array_t<double> control_points();
+  /// Returns the control points of the cell's vectors, of the shape (dimension, degree + 1, dimension), or an
+  /// array without vectors if the beads have no images.
+  [[nodiscard]] pybind11::array_t<double> cell_points();
   /// Returns the time at which the run stands, counted in steps. Rounded if it is irrational.
   [[nodiscard]] double time();
   [[nodiscard]] std::uint64_t fingerprint();

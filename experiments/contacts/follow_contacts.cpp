@@ -45,7 +45,11 @@ std::uint64_t pairs_asked(const Scene& scene, const ContactsReport& report) {
 }  // namespace
 
 IntervalRecord record_of(const ContactInterval& interval) {
-  const auto at = [](const ContactMoment& moment) { return static_cast<double>(moment.step) + moment.u(); };
+  const auto at = [](const ContactMoment& moment) {
+    const auto step = static_cast<double>(moment.step), time = step + moment.u();
+    if (moment.upper == 0 || moment.lower == 1) return time;
+    return std::clamp(time, std::nextafter(step, step + 1), std::nextafter(step + 1, step));
+  };
   const RoundedTime &begin = interval.begin.rounded, &end = interval.end.rounded;
   return {interval.first,
           interval.second,
