@@ -15,6 +15,7 @@ from ._analyses import (Collisions, Comparison, Conditions, Contacts, Replicas, 
 from ._kds import AuditError, InputError
 from ._kds import version as _version
 from ._impacts import impacts
+from ._intervals import Intervals, JoinedContacts
 from ._open import Opened, open
 from ._options import InputWarning
 from ._paper import closest_by_diagram, separating_family, trusted_hierarchy
@@ -27,9 +28,9 @@ from ._view import View
 AuditError.__module__ = InputError.__module__ = "kds"
 __version__ = _version()
 __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "ContactAnalysis", "Contacts", "InputError",
-           "InputWarning", "KineticAnalysis", "KineticRun", "Opened", "Replicas", "Run", "StreamFrame", "Structure",
-           "Surface", "Trade", "Updates", "View", "Voids", "closest_by_diagram", "closest_pair", "collide",
-           "colliding_pairs", "compare", "conditions", "contacts", "contacts_of_parts", "contacts_of_replicas",
+           "InputWarning", "Intervals", "JoinedContacts", "KineticAnalysis", "KineticRun", "Opened", "Replicas", "Run",
+           "StreamFrame", "Structure", "Surface", "Trade", "Updates", "View", "Voids", "closest_by_diagram", "closest_pair",
+           "collide", "colliding_pairs", "compare", "conditions", "contacts", "contacts_of_parts", "contacts_of_replicas",
            "enclosing_sphere", "generate", "impacts", "layered_hierarchy", "power_diagram", "replay", "run",
            "separating_family", "stream", "structure_names", "surface", "trade", "trusted_hierarchy", "update", "voids",
            "wrapped_hierarchy"]

@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, TypedDict, Union
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, TypedDict, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -260,12 +260,25 @@ class _Result:
     table: str
     rows: Table
     json: Dict[str, Any]
+    def save(self, path: Path, what: str = "rows") -> None: ...
 
-class Contacts(_Result):
+class Intervals:
     names: List[str]
-    all: Dict[str, Any]
     unit: str
+    rows: Table
     intervals: Table
+    json: Dict[str, Any]
+    frame_numbers: Optional[NDArray[np.int64]]
+    def at_frames(self) -> Tuple[Any, Pairs]: ...
+    def native(self, reference: Union[int, ArrayLike, None] = None, at_frames: bool = False) -> Table: ...
+    def joined(self, labels: Union[str, Sequence[str], Callable[[str], str]] = "residue") -> JoinedContacts: ...
+    def to_networkx(self) -> Any: ...
+    def save(self, path: Path, what: str = "rows") -> None: ...
+
+class JoinedContacts(Intervals): ...
+
+class Contacts(_Result, Intervals):
+    all: Dict[str, Any]
     survival: Table
     frames: Table
     def correlation(self, lags: ArrayLike) -> Table: ...

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _kds, _lifetimes, _plots
 from ._inputs import Input, open_input
+from ._intervals import Intervals
 from ._options import INPUT, InputError, arguments, call, check_names, cutoff_text, flag, number, takes, warn
 from ._tables import Result, table, table_of_rows
 
@@ -39,7 +40,7 @@ def replay(log, *, verbose=False):
     return json.loads(find(_kds.replay, Input([os.fspath(log)]), [], verbose=verbose)["json"])["replay"]
 
 
-class Contacts(Result):
+class Contacts(Result, Intervals):
     """How long contacts last. Made by :func:`kds.contacts`.
 
     ``rows``
@@ -61,20 +62,17 @@ class Contacts(Result):
 
     def __init__(self, found):
         super().__init__(found)
-        self.names = found["names"]
-        self.all = self.json["all"]
-        self.unit = self.json["unit"]
+        self.all, self.unit = self.json["all"], self.json["unit"]
         self.survival = table_of_rows(self.json["survival"])
         self.frames = table_of_rows(self.json["frames"])
-        names = np.array(self.names)
-        columns = {"i": found["first"], "j": found["second"], "first": names[found["first"]],
-                   "second": names[found["second"]]}
-        columns.update({name: found[name] for name in ("begin_frame", "end_frame")})
+        arrays = {name: found[name] for name in ("first", "second", "begin_frame", "end_frame")}
         if self.unit == "ps":
-            columns.update({name: found[name] for name in ("begin_time", "end_time")})
-        columns["length"] = found["length"]
-        columns.update({name: found[name].astype(bool) for name in ("open_at_start", "open_at_end")})
-        self.intervals = table(columns)
+            arrays.update({name: found[name] for name in ("begin_time", "end_time")})
+        arrays["length"] = found["length"]
+        arrays.update({name: found[name].astype(bool) for name in ("open_at_start", "open_at_end")})
+        arrays.update({name: found[name] for name in ("begin_step", "end_step", "frame_numbers") if name in found})
+        start = self.json["course"][0]["picoseconds" if self.unit == "ps" else "frame"]
+        self._set_intervals(arrays, found["names"], self.unit, start, self.json["run_length"])
 
     def correlation(self, lags):
         """Returns the correlation functions of contacts at these lags, a table. They are exact for the paths between frames.

@@ -1,6 +1,14 @@
-"""Tables: a DataFrame if pandas is installed, otherwise a structured array."""
+"""Tables: a DataFrame if pandas is installed, otherwise a structured array. Results, and files of them."""
+
+import csv
+import importlib
+import io
+import json
+import os
 
 import numpy as np
+
+from ._options import InputError
 
 
 def _column(values):
@@ -58,11 +66,88 @@ def table_of_rows(rows, columns=()):
     return table({name: [row.get(name) for row in flat] for name in names})
 
 
+def needed(module, purpose):
+    """Returns a module that is not always installed."""
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        raise ImportError(f"{purpose} need {module.partition('.')[0]}, which is not installed") from error
+
+
+def columns_of(of):
+    """Returns the columns of a table by name, as arrays of numbers or text."""
+    names = of.dtype.names if isinstance(of, np.ndarray) else list(of)
+    columns = {name: np.asarray(of[name]) for name in names}
+    return {name: np.array([str(value) for value in column]) if column.dtype == object else column
+            for name, column in columns.items()}
+
+
+def records(of):
+    """Returns the rows of a table, dictionaries. NaN becomes None."""
+    columns = columns_of(of)
+    return [dict(zip(columns, (None if value != value else value for value in row)))
+            for row in zip(*(column.tolist() for column in columns.values()))]
+
+
+class Saved:
+    """A result with ``rows`` that can be written to a file."""
+
+    def __repr__(self):
+        return f"<kds.{type(self).__name__}: {len(self.rows)} rows>"
+
+    def save(self, path, what="rows"):
+        """Writes the result to a file, whose ending gives the format. A file of that name is replaced, whole or not at all.
+
+        ``.csv`` and ``.npz`` have the columns of a table: ``what`` names the attribute, such as "intervals". ``.json`` has all
+        numbers, as the attribute ``json``. ``.graphml`` has the graph of contacts; it needs networkx.
+        """
+        path = os.fspath(path)
+        writers = {".csv": _csv_of, ".npz": _npz_of}
+        ending = os.path.splitext(path)[1].lower()
+        endings = [*writers, ".json", *([".graphml"] if hasattr(self, "to_networkx") else [])]
+        if ending not in endings:
+            raise InputError(f"{path}: cannot tell the format from the ending; expected {', '.join(endings)}")
+        if ending == ".json":
+            content = json.dumps(self.json, indent=1, allow_nan=False).encode()
+        elif ending == ".graphml":
+            content = "\n".join(needed("networkx", "graphs").generate_graphml(self.to_networkx())).encode()
+        else:
+            tables = [name for name, value in vars(self).items() if hasattr(value, "dtypes")  # of pandas
+                      or isinstance(value, np.ndarray) and value.dtype.names]
+            if what not in tables:
+                raise InputError(f"what: is {what!r}; expected {', '.join(tables)}")
+            content = writers[ending](columns_of(getattr(self, what)))
+        part = f"{path}.part"
+        try:
+            with open(part, "wb") as file:
+                file.write(content)
+            os.replace(part, path)
+        except OSError as error:
+            if os.path.exists(part):
+                os.remove(part)
+            raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+
+
+def _csv_of(columns):
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(["" if value != value else value for value in row]
+                     for row in zip(*(column.tolist() for column in columns.values())))
+    return text.getvalue().encode()
+
+
+def _npz_of(columns):
+    file = io.BytesIO()
+    np.savez_compressed(file, **columns)
+    return file.getvalue()
+
+
 def indented(text):
     return f"<pre>{text.replace('&', '&amp;').replace('<', '&lt;')}</pre>"
 
 
-class Result:
+class Result(Saved):
     """What an analysis found.
 
     ``table`` is the program's table, which ``print`` and notebooks show. ``rows`` holds the same numbers with all
@@ -71,17 +156,12 @@ class Result:
     """
 
     def __init__(self, found):
-        import json
-
         self.json = json.loads(found["json"])
         self.table = found["table"]
         self.rows = table_of_rows(self.json["rows"], found.get("columns", "").strip().split(","))
 
     def __str__(self):
         return self.table.rstrip("\n")
-
-    def __repr__(self):
-        return f"<kds.{type(self).__name__}: {len(self.rows)} rows>"
 
     def _repr_html_(self):
         return indented(self.table)

@@ -93,7 +93,8 @@ class Stubs(unittest.TestCase):
         self.assertEqual(set(kds.__all__) - set(self.functions) - set(self.classes), set())
         for name, node in self.functions.items():
             self.assert_same(node, getattr(kds, name), name)
-        for name in ("Run", "KineticRun", "Structure", "Contacts", "Surface", "Voids", "ContactAnalysis", "KineticAnalysis"):
+        for name in ("Run", "KineticRun", "Structure", "Contacts", "Intervals", "Surface", "Voids", "ContactAnalysis",
+                     "KineticAnalysis"):
             for node in self.classes[name].body if hasattr(kds, name) else ():
                 if isinstance(node, ast.FunctionDef) and (node.name == "__init__" or not node.name.startswith("__")):
                     member = inspect.getattr_static(getattr(kds, name), node.name)
@@ -124,7 +125,7 @@ class WithoutOtherPackages(unittest.TestCase):
     def test_numpy_is_enough(self):
         code = """
 import sys
-for name in ("pandas", "matplotlib", "matplotlib.pyplot", "tqdm", "tqdm.auto", "MDAnalysis", "mdtraj"):
+for name in ("pandas", "matplotlib", "matplotlib.pyplot", "tqdm", "tqdm.auto", "MDAnalysis", "mdtraj", "scipy", "networkx"):
     sys.modules[name] = None
 import kds
 spiral = kds.generate("spiral", beads=30, frames=5)
@@ -132,14 +133,17 @@ run = kds.run(spiral, radius=1, structures=["contacts"], cutoff=3, verbose=True)
 rows = run.contacts.lifetimes(by="bead")
 assert rows.dtype.names[:2] == ("i", "j") and len(rows) > 0
 assert len(run.results.events) == len(run.events)
-try:
-    run.plot()
-except ImportError as error:
-    print(error)
+found = run.contacts.analysis(by="bead")
+for needs in (run.plot, found.at_frames, found.to_networkx):
+    try:
+        needs()
+    except ImportError as error:
+        print(error)
 """
         found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
         self.assertEqual(found.returncode, 0, found.stderr)
-        self.assertIn("plots need matplotlib", found.stdout)
+        for words in ("plots need matplotlib", "sparse matrices need scipy", "graphs need networkx"):
+            self.assertIn(words, found.stdout)
 
 
 class Manual(unittest.TestCase):

@@ -1,0 +1,165 @@
+"""Intervals of pairs in contact: at frames, joined by groups, as graphs, and the share of native contacts."""
+
+import numpy as np
+
+from ._options import InputError
+from ._tables import Saved, needed, records, table
+
+
+class Intervals(Saved):
+    """Closed intervals of time in which pairs of named elements are in contact. Base of results of contacts.
+
+    ``frame_numbers``
+        the number in the file of each frame that was read, or None for results that were read from a folder.
+    """
+
+    def _set_intervals(self, found, names, unit, start, length):
+        """Takes arrays with a value for each interval. `start` is the first reading of the clock, and `length` that of the
+        run. Further arrays become columns of the table."""
+        self.names, self.unit = list(names), unit
+        self._start, self._length = start, length
+        found = dict(found)
+        self.frame_numbers = found.pop("frame_numbers", None)
+        self._arrays = found
+        label = np.array(self.names)
+        columns = {"i": found["first"], "j": found["second"], "first": label[found["first"]], "second": label[found["second"]]}
+        for name in found:
+            if name not in ("first", "second", "begin_step", "end_step"):
+                columns[name] = found[name]
+        self.intervals = table(columns)
+
+    def at_frames(self):
+        """Returns which pairs are in contact at each frame: a sparse matrix of SciPy and the pairs of its columns.
+
+        The matrix (frames, pairs) is a ``csr_matrix`` of truth values. Its rows belong to ``frame_numbers``. Its columns are
+        all pairs that are ever in contact, an array (pairs, 2) of elements. Contacts are decided exactly. A pair at the very
+        cutoff is in contact, unless it comes to the cutoff exactly at the last frame. An absence that ``gap`` bridges is no
+        absence here.
+        """
+        sparse = needed("scipy.sparse", "sparse matrices")
+        if self.frame_numbers is None:
+            raise InputError("at_frames: results that are read from a folder have no frames; expected those of kds.contacts")
+        pairs, column = self._pairs()
+        first, last = np.ceil(self._arrays["begin_step"]).astype(int), np.floor(self._arrays["end_step"]).astype(int)
+        count = np.maximum(last - first + 1, 0)
+        row = np.repeat(first - np.cumsum(count) + count, count) + np.arange(count.sum())
+        shape = len(self.frame_numbers), len(pairs)
+        return sparse.csr_matrix((np.ones(len(row), bool), (row, np.repeat(column, count))), shape=shape), pairs
+
+    def _pairs(self):
+        """Returns the pairs that are ever in contact, ascending, and the place among them of the pair of each interval."""
+        size = len(self.names)
+        keys, place = np.unique(self._arrays["first"].astype(np.int64) * size + self._arrays["second"], return_inverse=True)
+        return np.stack([keys // size, keys % size], axis=1), place
+
+    def native(self, reference=None, at_frames=False):
+        """Returns the share Q of native contacts that are there, a table over time.
+
+        Native pairs are those in contact at the frame ``reference`` (default: the first one), or an array (pairs, 2) of
+        elements. Each pair counts 1 in contact and 0 otherwise. Rows are the first frame, all times at which a native
+        contact begins or ends, and the last frame. ``fraction`` holds from a row to the next. With ``at_frames``, rows are
+        the frames, and ``fraction`` is that at the frame.
+        """
+        pairs, place = self._pairs()
+        if reference is None or np.ndim(reference) == 0:
+            matrix = self.at_frames()[0]
+            frame = self.frame_numbers[0] if reference is None else reference
+            if frame not in self.frame_numbers:
+                raise InputError(f"reference: {reference} is no frame that was read; expected one from {self.frame_numbers[0]} "
+                                 f"to {self.frame_numbers[-1]}")
+            chosen = matrix[np.searchsorted(self.frame_numbers, frame)].indices
+            count, wanted = len(chosen), np.isin(np.arange(len(pairs)), chosen)
+        else:
+            given = np.asarray(reference)
+            if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":
+                raise InputError("reference: expected the number of a frame, or pairs of elements, an array (pairs, 2)")
+            native = {tuple(sorted(pair)) for pair in given.tolist()}
+            count, wanted = len(native), np.array([tuple(sorted(pair)) in native for pair in pairs.tolist()], bool)
+        if count == 0:
+            raise InputError("reference: has no pair in contact; expected another frame, or pairs")
+        if at_frames:
+            inside = self.at_frames()[0][:, np.flatnonzero(wanted)]
+            return table({"frame": self.frame_numbers, "fraction": np.asarray(inside.sum(axis=1)).ravel() / count})
+        clock, own = "time" if self.unit == "ps" else "frame", wanted[place]
+        begin, end = (self._arrays[f"{side}_{clock}"][own] for side in ("begin", "end"))
+        ended = end[~self._arrays["open_at_end"][own].astype(bool)]
+        times = np.unique(np.concatenate([[self._start, self._start + self._length], begin, ended]))
+        number = np.searchsorted(np.sort(begin), times, "right") - np.searchsorted(np.sort(ended), times, "right")
+        return table({clock: times, "fraction": number / count})
+
+    def joined(self, labels="residue"):
+        """Returns the contacts of groups of elements, :class:`kds.JoinedContacts`. Groups are in contact while any two of
+        their elements are.
+
+        ``labels`` is a function that returns the group of a name, or a list with the group of each element, such as
+        ``group.elements`` of an AtomGroup. The default takes the residue in names of beads.
+        """
+        if isinstance(labels, str) and labels == "residue":
+            labels = [name.partition(" of ")[2] or name for name in self.names]
+        labels = [labels(name) for name in self.names] if callable(labels) else list(labels)
+        if len(labels) != len(self.names):
+            raise InputError(f"labels: are {len(labels)}; expected {len(self.names)}, one for each element")
+        return JoinedContacts(self, [str(label) for label in labels])
+
+    def to_networkx(self):
+        """Returns a Graph of networkx. Nodes are elements with their ``name``. Edges are the rows: ``occupancy``, the number of
+        ``contacts``, and ``residence``, the mean life, unless it is not known."""
+        graph = needed("networkx", "graphs").Graph(unit=self.unit)
+        graph.add_nodes_from((k, {"name": name}) for k, name in enumerate(self.names))
+        for row in records(self.rows):
+            graph.add_edge(row["i"], row["j"], **{name: row[name] for name in ("occupancy", "contacts", "residence")
+                                                  if row[name] is not None})
+        return graph
+
+    def _set_rows(self, **more):
+        """Makes a row for each pair that is ever in contact, without confidence intervals, and the JSON."""
+        pairs, place = self._pairs()
+        label, length, is_open = np.array(self.names), self._arrays["length"], self._arrays["open_at_end"].astype(bool)
+        count, total = np.bincount(place, minlength=len(pairs)), np.bincount(place, length, len(pairs))
+        ends = np.bincount(place, ~is_open, len(pairs))
+        longest = np.zeros(len(pairs))
+        np.maximum.at(longest, place, length)
+        self.rows = table({"i": pairs[:, 0], "j": pairs[:, 1], "first": label[pairs[:, 0]], "second": label[pairs[:, 1]],
+                           "contacts": count, "occupancy": total / self._length,
+                           "residence": np.divide(total, ends, out=np.full(len(pairs), np.nan), where=ends > 0),
+                           "total": total, "longest": longest, **more})
+        self.json = {"unit": self.unit, "names": self.names, "rows": records(self.rows), "intervals": records(self.intervals)}
+
+
+class JoinedContacts(Intervals):
+    """Contacts of groups of elements. Made by ``joined`` of results of contacts.
+
+    ``rows``
+        one row for each pair of groups that is ever in contact, also of a group with itself: ``contacts``, ``occupancy``,
+        ``residence``, ``total`` and ``longest`` as in :class:`kds.Contacts`; ``pairs``, how many pairs of elements are ever in
+        contact; and ``mean_pairs``, how many are at a time, on average.
+    ``intervals``
+        the union of the intervals of these pairs. Times are compared as doubles, so absences that these do not show are bridged.
+    """
+
+    def __init__(self, found, labels):
+        names = list(dict.fromkeys(labels))
+        number = {name: k for k, name in enumerate(names)}
+        of = np.array([number[label] for label in labels], np.int64)
+        arrays = found._arrays
+        low, high = np.sort([of[arrays["first"]], of[arrays["second"]]], axis=0)
+        begin, end = (arrays.get(f"{side}_step", arrays[f"{side}_frame"]) for side in ("begin", "end"))
+        rows = {}  # for each pair of groups, lists of the first and the last of the intervals that are joined
+        for k in np.lexsort((begin, high, low)).tolist():
+            own = rows.setdefault((low[k], high[k]), [])
+            if own and begin[k] <= end[own[-1][1]]:
+                own[-1][1] = k if end[k] > end[own[-1][1]] else own[-1][1]
+            else:
+                own.append([k, k])
+        from_, to = np.array([one for own in rows.values() for one in own], np.int64).reshape(-1, 2).T
+        clock = "time" if found.unit == "ps" else "frame"
+        joined = {"first": low[from_], "second": high[from_]}
+        joined.update({name: column[from_ if name.startswith("begin") or name == "open_at_start" else to]
+                       for name, column in arrays.items() if name not in ("first", "second", "length")})
+        joined.update(length=joined[f"end_{clock}"] - joined[f"begin_{clock}"], frame_numbers=found.frame_numbers)
+        self._set_intervals(joined, names, found.unit, found._start, found._length)
+        pairs, _ = self._pairs()
+        at = np.searchsorted(pairs[:, 0] * len(names) + pairs[:, 1], low * len(names) + high)  # of each interval of `found`
+        one_of = np.unique(found._pairs()[1], return_index=True)[1]  # an interval of each pair of elements
+        self._set_rows(pairs=np.bincount(at[one_of], minlength=len(pairs)),
+                       mean_pairs=np.bincount(at, arrays["length"], len(pairs)) / self._length)
