@@ -14,6 +14,7 @@ from ._analyses import (Collisions, Comparison, Conditions, Contacts, Replicas, 
                         trade, update, voids)
 from ._kds import AuditError, InputError
 from ._kds import version as _version
+from ._contact_types import HydrogenBonds, hydrogen_bonds, salt_bridges
 from ._impacts import impacts
 from ._intervals import Intervals, JoinedContacts
 from ._open import Opened, open
@@ -27,13 +28,13 @@ from ._view import View
 
 AuditError.__module__ = InputError.__module__ = "kds"
 __version__ = _version()
-__all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "ContactAnalysis", "Contacts", "InputError",
-           "InputWarning", "Intervals", "JoinedContacts", "KineticAnalysis", "KineticRun", "Opened", "Replicas", "Run",
-           "StreamFrame", "Structure", "Surface", "Trade", "Updates", "View", "Voids", "closest_by_diagram", "closest_pair",
-           "collide", "colliding_pairs", "compare", "conditions", "contacts", "contacts_of_parts", "contacts_of_replicas",
-           "enclosing_sphere", "generate", "impacts", "layered_hierarchy", "power_diagram", "replay", "run",
-           "separating_family", "stream", "structure_names", "surface", "trade", "trusted_hierarchy", "update", "voids",
-           "wrapped_hierarchy"]
+__all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "ContactAnalysis", "Contacts", "HydrogenBonds",
+           "InputError", "InputWarning", "Intervals", "JoinedContacts", "KineticAnalysis", "KineticRun", "Opened",
+           "Replicas", "Run", "StreamFrame", "Structure", "Surface", "Trade", "Updates", "View", "Voids",
+           "closest_by_diagram", "closest_pair", "collide", "colliding_pairs", "compare", "conditions", "contacts",
+           "contacts_of_parts", "contacts_of_replicas", "enclosing_sphere", "generate", "hydrogen_bonds", "impacts",
+           "layered_hierarchy", "power_diagram", "replay", "run", "salt_bridges", "separating_family", "stream",
+           "structure_names", "surface", "trade", "trusted_hierarchy", "update", "voids", "wrapped_hierarchy"]
 
 
 def __getattr__(name):

@@ -134,7 +134,8 @@ class JoinedContacts(Intervals):
         ``residence``, ``total`` and ``longest`` as in :class:`kds.Contacts`; ``pairs``, how many pairs of elements are ever in
         contact; and ``mean_pairs``, how many are at a time, on average.
     ``intervals``
-        the union of the intervals of these pairs. Times are compared as doubles, so absences that these do not show are bridged.
+        the union of the intervals of these pairs. Times are compared as doubles, so absences that these do not show are
+        bridged.
     """
 
     def __init__(self, found, labels):

@@ -153,7 +153,7 @@ class Manual(unittest.TestCase):
             import mdtraj  # noqa: F401
         except Exception as error:
             self.skipTest(f"the examples need MDAnalysis and mdtraj ({error})")
-        self.run_blocks("python.md", 8, (PDB, "md.pdb"), (DCD, "md.dcd"))
+        self.run_blocks("python.md", 8, (PDB, "md.pdb"), (DCD, "md.dcd"), (ROOT / "data" / "proteins" / "1l2y.pdb", "1l2y.pdb"))
 
     def test_those_of_residence_run(self):
         try:
