@@ -29,7 +29,7 @@ void require_room_for_another(std::size_t pairs) {
                     most_pairs));
 }
 
-constexpr double more = 1 + 0x1p-40;  // factor above all roundings of a difference and a sum of three
+constexpr double rounded_up = 1 + 0x1p-40;  // factor above all roundings of a difference and a sum of three
 
 /// The range of a bead's coordinate during the step.
 struct Extent {
@@ -97,7 +97,8 @@ Distance distance(const Curves<Dimension>& curves, BeadId a, BeadId b,
   return distance;
 }
 
-/// The range of the distance of two images. Sums with a shift have larger roundings than those of `more`.
+/// The range of the distance of two images. Sums with a shift have larger roundings than those of
+/// `rounded_up`.
 template <int Dimension>
 class ImageDistances {
  public:
@@ -152,8 +153,9 @@ std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curv
       for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low - sorted[i].high <= limit; ++j)
         visit(sorted[i].bead, sorted[j].bead);
   };
-  each_near_pair([&](BeadId a, BeadId b) { limit = std::min(limit, distance(curves, a, b).most * more); });
-  limit *= more;
+  each_near_pair(
+      [&](BeadId a, BeadId b) { limit = std::min(limit, distance(curves, a, b).most * rounded_up); });
+  limit *= rounded_up;
   std::vector<std::array<BeadId, 2>> pairs;
   each_near_pair([&](BeadId a, BeadId b) {
     if (distance(curves, a, b).least > limit) return;
@@ -190,7 +192,8 @@ std::vector<ImagePair> candidate_images(const Curves<Dimension>& curves, ShiftNu
   }
   if (!std::isfinite(limit)) return {};  // fewer than two beads, or doubles overflow
   const MotionRef<Dimension> motion(curves);
-  const OtherRadii<Dimension> halves(motion, std::vector<double>(curves.bead_count(), 0.5 * more * limit));
+  const OtherRadii<Dimension> halves(motion,
+                                     std::vector<double>(curves.bead_count(), 0.5 * rounded_up * limit));
   PairsAsked asked{{{0, static_cast<BeadId>(curves.bead_count() - 1)}}, true, 1};
   for (BeadId bead = 0; bead < curves.bead_count() && !absent.empty(); ++bead)
     asked.groups.push_back(is_absent(bead) ? 0 : 3);

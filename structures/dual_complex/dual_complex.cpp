@@ -7,6 +7,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "certificates/exact/exact_polynomial.h"
 #include "certificates/search/predicate_searches.h"
 #include "motions/base/input_error.h"
 #include "motions/base/interruption.h"

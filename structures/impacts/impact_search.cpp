@@ -14,7 +14,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::size_t four = 4;
+constexpr std::size_t point_count = 4;
 
 Impact impact_at(const Instant& time, bool passes) {
   if (time.upper() - time.lower() > 0x1p-44 * time.upper()) {
@@ -31,7 +31,7 @@ class ImpactSearch::Work {
  public:
   Work(ImpactKind kind, int degree)
       : pair_{kind, {0, 1, 2, 3}, {}},
-        motion_(four, degree),
+        motion_(point_count, degree),
         test_(MotionRef<3>(motion_), Kernel::filtered, stages_) {}
 
   void set(std::span<const double> points);
@@ -58,12 +58,12 @@ class ImpactSearch::Work {
 
 void ImpactSearch::Work::set(std::span<const double> points) {
   const auto row = static_cast<std::size_t>(motion_.own_degree()) + 1;
-  if (points.size() != four * row * 3)
+  if (points.size() != point_count * row * 3)
     throw InputError(
         fmt::format("expected {} coordinates of four points with {} control points each, found {}",
-                    four * row * 3, row, points.size()));
+                    point_count * row * 3, row, points.size()));
   std::size_t at = 0;
-  for (BeadId point = 0; point < four; ++point)
+  for (BeadId point = 0; point < point_count; ++point)
     for (int k = 0; k < static_cast<int>(row); ++k)
       for (int axis = 0; axis < 3; ++axis) motion_.set_coordinate(point, k, axis, points[at++]);
 }
@@ -72,7 +72,7 @@ bool ImpactSearch::Work::are_apart() const {
   const BeadId of_first = pair_.kind == ImpactKind::vertex_face ? 1 : 2;
   for (int axis = 0; axis < 3; ++axis) {
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
-    for (BeadId point = 0; point < four; ++point) {
+    for (BeadId point = 0; point < point_count; ++point) {
       const int feature = point < of_first ? 0 : 1;
       for (int k = 0; k <= motion_.own_degree(); ++k) {
         low[feature] = std::min(low[feature], motion_.coordinate(point, k, axis));
