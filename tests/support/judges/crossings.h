@@ -2,12 +2,18 @@
 // Judges which bonds of chains pass through each other between frames of whole coordinates, by the impacts of
 // all pairs of bonds (impacts.h). Shares only Crossings::Kind with the structure.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <tuple>
 #include <vector>
 
+#include "kds/event_log.h"
 #include "structures/crossings/crossings.h"
 #include "tests/support/judges/impacts.h"
+#include "tests/support/text_of.h"
 
 namespace kds::test {
 
@@ -73,6 +79,46 @@ inline void judge_bonds(const WholeFrames& frames, BeadId a, BeadId b, std::vect
       before = sign_after(k);
     }
   }
+}
+
+/// Returns whether the time lies in the event's bracket.
+inline bool is_within(const JudgedTime& time, const Event& event) {
+  const Rational lower(event.lower), upper(event.upper);
+  sturm::Root root = time.root;
+  while (!root.is_number() && (root.lower < lower || upper < root.upper)) {
+    if (root.upper < lower || upper < root.lower) return false;
+    sturm::halve(*time.sequence, root);
+  }
+  return root.is_number() ? lower <= root.lower && root.lower <= upper : true;
+}
+
+/// Explains what is wrong with the events of a run over the frames, whose bonds begin at the beads `bonds`,
+/// or returns nothing.
+inline std::optional<std::string> crossings_fault(const WholeFrames& frames, const std::vector<BeadId>& bonds,
+                                                  std::vector<Event> found) {
+  std::vector<JudgedCrossing> right;
+  for (const BeadId a : bonds)
+    for (const BeadId b : bonds)
+      if (a + 1 < b) judge_bonds(frames, a, b, right);
+  std::stable_sort(right.begin(), right.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.step, a.beads) < std::tie(b.step, b.beads);
+  });
+  const auto key_of = [](const Event& e) {
+    const auto& ids = e.change.ids;
+    return std::tuple(e.step, std::array{ids[0], ids[1], ids[2], ids[3]});
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const Event& a, const Event& b) { return key_of(a) < key_of(b); });
+  if (found.size() != right.size()) return text_of(found.size(), " events, expected ", right.size());
+  for (std::size_t k = 0; k < right.size(); ++k) {
+    const std::string name =
+        text_of("event ", k, " of bonds ", right[k].beads[0], " and ", right[k].beads[2]);
+    if (key_of(found[k]) != std::tuple(right[k].step, right[k].beads)) return name + ": other step or beads";
+    if (found[k].change.kind != right[k].kind)
+      return name + text_of(": kind ", int{found[k].change.kind}, ", expected ", int{right[k].kind});
+    if (!is_within(right[k].time, found[k])) return name + ": wrong time";
+  }
+  return std::nullopt;
 }
 
 }  // namespace kds::test
