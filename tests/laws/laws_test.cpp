@@ -25,8 +25,8 @@
 #include "kds/known_events.h"
 #include "motions/base/input_error.h"
 #include "structures/session/parallel_run.h"
+#include "tests/laws/law_run.h"
 #include "tests/laws/law_scenes.h"
-#include "tests/laws/law_structures.h"
 #include "tests/support/inputs/random.h"
 #include "tests/support/property_runs.h"
 #include "tests/support/rounds.h"
@@ -39,103 +39,12 @@ using namespace test;
 /// Limb operations after which a run is given up. They take about a second for 10^8.
 constexpr std::uint64_t most_work = 40'000'000;
 
-/// Everything that two runs must have in common.
-struct Outcome {
-  std::string ending;  // "done", "too much work", or the message of a refusal
-  std::vector<Event> events;
-  std::vector<std::string> dumps;  // of all frames
-  Beads state;                     // at the end
-  std::vector<std::uint64_t> events_by_kind;
-  std::uint64_t rebuilds = 0, fingerprint = 0;
-
-  [[nodiscard]] bool is_decided() const { return ending != "too much work"; }
-  void add_dumps(const std::vector<DumpFile>& files) {
-    for (const DumpFile& file : files) dumps.push_back(file.ending + "\n" + file.text);
-  }
-  void add_end(Simulator& simulator, const RunningStructure& structure,
-               const StructureStatistics& statistics) {
-    state = state_now(structure);
-    fingerprint = simulator.fingerprint();
-    events_by_kind = statistics.events_by_kind;
-    rebuilds = statistics.rebuilds;
-    ending = "done";
-  }
-};
-
-void expect_same_events(const std::vector<Event>& some, const std::vector<Event>& others) {
-  ASSERT_EQ(some.size(), others.size());
-  for (std::size_t i = 0; i < some.size(); ++i) {
-    ASSERT_EQ(some[i].step, others[i].step) << "event " << i;
-    ASSERT_EQ(some[i].change, others[i].change) << "event " << i;
-    ASSERT_EQ(some[i].lower, others[i].lower) << "event " << i;
-    ASSERT_EQ(some[i].upper, others[i].upper) << "event " << i;
-  }
-}
-
-void expect_same(const Outcome& run, const Outcome& other) {
-  EXPECT_EQ(run.ending, other.ending);
-  expect_same_events(run.events, other.events);
-  EXPECT_EQ(run.dumps, other.dumps);
-  EXPECT_EQ(run.events_by_kind, other.events_by_kind);
-  EXPECT_EQ(run.rebuilds, other.rebuilds);
-  EXPECT_EQ(run.fingerprint, other.fingerprint);
-}
-
-/// Ends an outcome with the reason why `run` did not end by itself, if there is one.
+/// Ends an outcome as note_ending does. Any other exception than a refusal or the limit of work is a failure.
 template <class Run>
-void note_ending(Outcome& outcome, Run run) {
-  try {
-    run();
-  } catch (const InputError& refusal) {  // input beyond a stated limit
-    outcome.ending = refusal.what();
-  } catch (const WorkLimitReached&) {
-    outcome.ending = "too much work";
-  } catch (const std::exception& error) {  // a failed audit, an internal error
-    outcome.ending = error.what();
-    ADD_FAILURE() << error.what();
-  }
+void expect_ending(Outcome& outcome, Run run) {
+  note_ending(outcome, run);
+  EXPECT_FALSE(outcome.failed) << outcome.ending;
 }
-
-Beads all_beads(const Scene& scene) {
-  Beads beads(scene.bead_count());
-  for (BeadId b = 0; b < beads.size(); ++b) beads[b] = b;
-  return beads;
-}
-
-/// Calls `look` at every so many audits inside a step (`every`). `look` gets the balls at a slightly later
-/// time, because a structure may be degenerate at a single moment without an event, or at that time if it
-/// accepts ties.
-class Judge final : public KineticStructure {
- public:
-  using Look = std::function<std::optional<std::string>(const ExactBalls&)>;
-
-  template <int Dimension>
-  Judge(Simulator& simulator, const MotionRef<Dimension>& motion, std::uint64_t every, bool accepts_ties,
-        Look look)
-      : every_(every),
-        accepts_ties_(accepts_ties),
-        look_(std::move(look)),
-        balls_([motion](const Dyadic& u) { return balls_at(motion.curves(), u); }) {
-    static_cast<void>(simulator.add(*this));
-  }
-  [[nodiscard]] std::string_view name() const override { return "judge"; }
-  [[nodiscard]] std::span<const EventKind> kinds() const override { return {}; }
-  void build() override {}
-  void start_step() override {}
-  void fail(unsigned, std::uint32_t) override {}
-  void apply(const Change&) override {}
-  [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override {
-    if (time == Dyadic(0.0) || time == Dyadic(1.0) || audits_++ % every_ != 0) return std::nullopt;
-    return look_(
-        balls_(accepts_ties_ ? time : Dyadic((time.numerator() << 100U) + 1, time.exponent() + 100)));
-  }
-
- private:
-  std::uint64_t every_, audits_ = 0;
-  bool accepts_ties_;
-  Look look_;
-  std::function<ExactBalls(const Dyadic&)> balls_;
-};
 
 struct Counts {
   int runs = 0;
@@ -162,12 +71,12 @@ class Subject {
     const Outcome audited = run(Kernel::filtered, AuditMode::events);
     if (audited.is_decided()) {
       SCOPED_TRACE("law 1, audits");
-      expect_same(audited, plain);
+      EXPECT_EQ(difference(audited, plain), std::nullopt);
     }
     const Outcome exact = run(Kernel::exact, AuditMode::none);
     if (exact.is_decided()) {
       SCOPED_TRACE("law 2, kernels");
-      expect_same(exact, plain);
+      EXPECT_EQ(difference(exact, plain), std::nullopt);
     }
     expect_parts(plain, seed);
     if (plain.ending != "done" || !spec_.has_events(row_.settings)) return;
@@ -182,10 +91,6 @@ class Subject {
   }
 
  private:
-  /// Returns the number of structures on which the structure stands.
-  [[nodiscard]] static std::size_t bases_of(const StructureSpec& spec) {
-    return spec.stands_on.empty() ? 0 : 1 + bases_of(*structure_registry().find(spec.stands_on));
-  }
   [[nodiscard]] const RunningStructure& subject(const KineticRun& run) const { return run.running(index_); }
   [[nodiscard]] const RunningStructure* base_of(const KineticRun& run) const {
     return index_ == 0 ? nullptr : &run.running(index_ - 1);
@@ -208,35 +113,9 @@ class Subject {
     return {{row_.name}, kernel, audits, row_.settings};
   }
 
-  /// Runs the scene. With audits, brute force judges too. With 12 or more beads it judges only every
-  /// n^2/16-th audit.
   [[nodiscard]] Outcome run(Kernel kernel, AuditMode audits) const {
-    Outcome outcome;
-    EventLog log;
-    note_ending(outcome, [&] {
-      KineticRun run(scene_, options(kernel, audits));
-      run.limit_work(most_work);
-      run.listen(log);
-      if (audits == AuditMode::events && judged_) {
-        const Beads present = all_beads(scene_);
-        const std::uint64_t every =
-            row_.judge_every * (present.size() < 12 ? 1 : present.size() * present.size() / 16);
-        static_cast<void>(run.add<Judge>(
-            every, row_.accepts_ties, Judge::Look([this, &run, present](const ExactBalls& balls) {
-              return row_.fault({scene_, subject(run), base_of(run), balls, present});
-            })));
-      }
-      run.build();
-      outcome.add_dumps(subject(run).dump(0));
-      for (std::size_t frame = 1; run.run_step(); ++frame) outcome.add_dumps(subject(run).dump(frame));
-      run.finish();
-      const StructureStatistics& statistics = run.structures()[index_]->statistics;
-      outcome.add_end(run.simulator(), subject(run), statistics);
-      const CertificateCounts& c = statistics.certificates;
-      EXPECT_EQ(c.created, c.never_failing + c.cancelled + c.failed + c.touched);
-      EXPECT_EQ(c.alive, 0U);
-    });
-    outcome.events = std::move(log.events);
+    Outcome outcome = run_scene(scene_, row_, kernel, audits, judged_, most_work);
+    EXPECT_FALSE(outcome.failed) << outcome.ending;
     return outcome;
   }
 
@@ -245,7 +124,7 @@ class Subject {
     Outcome cut;
     EventLog log;
     bool is_cut = true;
-    note_ending(cut, [&] {
+    expect_ending(cut, [&] {
       ParallelRun run(scene_, options(Kernel::filtered, AuditMode::none), {2 + seed % 4, 1 + seed % 3, true});
       is_cut = !run.uncut();
       if (!is_cut) return;
@@ -255,7 +134,7 @@ class Subject {
     });
     if (!is_cut) return;
     cut.events = std::move(log.events);
-    expect_same(cut, whole);
+    EXPECT_EQ(difference(cut, whole), std::nullopt);
   }
 
   /// Replays events and edits without certificates, which must give this fingerprint. Returns the dumps and
@@ -263,7 +142,7 @@ class Subject {
   [[nodiscard]] Outcome replayed(const std::vector<Event>& log, const std::vector<LoggedEdit>& all_edits,
                                  std::uint64_t fingerprint) const {
     Outcome outcome;
-    note_ending(outcome, [&] {
+    expect_ending(outcome, [&] {
       Simulator simulator(AuditMode::frames);
       const auto motion = make_scene_motion(scene_);
       const auto structures = make_in(simulator, motion->ref());
@@ -303,7 +182,7 @@ class Subject {
     for (const LoggedEdit& logged : log.edits) edits.push_back(logged.edit);
     run.repeat(edits);
     run.run([](std::size_t) {});
-    expect_same_events(again.events, log.events);
+    EXPECT_EQ(difference(again.events, log.events), std::nullopt);
     ASSERT_EQ(again.edits.size(), log.edits.size());
     for (std::size_t i = 0; i < log.edits.size(); ++i) {
       EXPECT_EQ(again.edits[i].events_before, log.edits[i].events_before);
@@ -321,7 +200,7 @@ class Subject {
     for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
       Outcome outcome;
       EventLog log;
-      note_ending(outcome, [&] {
+      expect_ending(outcome, [&] {
         KineticRun run(scene_, options(kernel, AuditMode::events));
         KineticStructure* const structure = run.structures()[index_];
         ASSERT_EQ(dynamic_cast<CourseFollower*>(structure) != nullptr, row_.edits != Edits::none)
@@ -347,7 +226,7 @@ class Subject {
           filtered = run.simulator().fingerprint();
           events = log.events;
         }
-        expect_same_events(log.events, events);
+        EXPECT_EQ(difference(log.events, events), std::nullopt);
         EXPECT_EQ(run.simulator().fingerprint(), *filtered);
         if (kernel == Kernel::exact) return;
         EXPECT_EQ(replayed(log.events, log.edits, *filtered).state, state_now(subject(run)));
@@ -465,12 +344,7 @@ TEST_P(Laws, Hold) {
       if (!family.judged && !row.takes_long_numbers) continue;
       if (scene->bead_count() > from_environment("KDS_LAW_BEADS", row.most_beads)) continue;
       SCOPED_TRACE(family.name + ", seed " + std::to_string(seed) + ", " + row.title());
-      try {
-        if (structure_registry().find(row.name)->refusal(*scene)) continue;
-        static_cast<void>(KineticRun(*scene, {{row.name}, Kernel::filtered, AuditMode::none, row.settings}));
-      } catch (const InputError&) {  // too small weights, or no boxes with these directions in the plane
-        continue;
-      }
+      if (!is_accepted(*scene, row)) continue;
       ++counts[i].runs;
       Subject(*scene, row, family.judged, counts[i]).expect_laws(seed);
     }
