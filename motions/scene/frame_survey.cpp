@@ -64,7 +64,8 @@ void PlaneSearch::add(const FrameRead& frame, bool with_velocities) {
   begun_ = true;
   std::erase_if(left_, [&](const AxisPlane& plane) {
     return !(frame.positions.row(plane.axes[2]).array() == plane.height).all() ||
-           (with_velocities && !(frame.velocities.row(plane.axes[2]).array() == 0).all());
+           (with_velocities && frame.velocities.cols() > 0 &&
+            !(frame.velocities.row(plane.axes[2]).array() == 0).all());
   });
 }
 
