@@ -28,11 +28,10 @@ struct FuzzTarget {
 
 /// Targets:
 ///
-///   kernels    the filtered and the exact kernel have the same events, brackets, dumps and fingerprint
-///   audits     every audit between events passes, brute force finds the same, and audits change no event
-///   contacts   contacts have the events that each pair has by itself, over rationals
-///   (judges/contact_events.h) crossings  crossings have the events of all pairs of bonds
-///   (judges/crossings.h)
+/// - `kernels`: the filtered and the exact kernel have the same events, brackets, dumps and fingerprint.
+/// - `audits`: every audit between events passes, brute force finds the same, and audits change no event.
+/// - `contacts`: contacts have the events of each pair by itself, over rationals (judges/contact_events.h).
+/// - `crossings`: crossings have the events of all pairs of bonds (judges/crossings.h).
 [[nodiscard]] const std::vector<FuzzTarget>& fuzz_targets();
 /// Returns null if there is no target of this name.
 [[nodiscard]] const FuzzTarget* find_target(std::string_view name);

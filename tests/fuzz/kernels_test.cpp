@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
@@ -15,15 +16,17 @@
 #include "tests/fuzz/kernel_targets.h"
 #include "tests/fuzz/minimize.h"
 #include "tests/laws/law_run.h"
+#include "tests/support/property_runs.h"
+#include "tests/support/rounds.h"
 
 namespace kds::fuzz_kernels_test {
 namespace {
 
 using namespace test;
 
-/// Calls visit(target, scene) for each file of the corpus.
+/// Calls visit(target, bytes) for each file of the corpus.
 template <class Visit>
-void each_scene(const Visit& visit) {
+void each_input(const Visit& visit) {
   for (const FuzzTarget& target : fuzz_targets()) {
     int files = 0;
     for (const auto& file :
@@ -31,15 +34,36 @@ void each_scene(const Visit& visit) {
       SCOPED_TRACE(file.path());
       ++files;
       EXPECT_LE(file.file_size(), 400U);
-      visit(target, target.scene_of(content_of(file.path())));
+      visit(target, content_of(file.path()));
     }
     EXPECT_GT(files, 5) << target.name;
   }
 }
 
 TEST(FuzzKernels, CorpusHasNoFault) {
-  each_scene([](const FuzzTarget& target, const SmallScene& scene) {
+  each_input([](const FuzzTarget& target, const std::string& bytes) {
+    const SmallScene scene = target.scene_of(bytes);
     EXPECT_EQ(target.fault_of(scene), std::nullopt) << scene.structure.title();
+  });
+}
+
+// Changes bytes at random as libFuzzer does, but with every compiler, and blind to the branches that are
+// taken.
+TEST(FuzzKernels, ChangedInputsHaveNoFault) {
+  std::mt19937_64 random(from_environment("KDS_FUZZ_SEED", 1));
+  const std::uint64_t changes = rounds(from_environment("KDS_FUZZ_ROUNDS", 8));
+  each_input([&](const FuzzTarget& target, const std::string& bytes) {
+    for (std::uint64_t i = 0; i < changes; ++i) {
+      std::string changed = bytes;
+      for (std::uint64_t count = 1 + random() % 4; count > 0; --count)
+        changed[random() % changed.size()] = static_cast<char>(random());
+      const SmallScene scene = target.scene_of(changed);
+      const auto fault = target.fault_of(scene);
+      EXPECT_EQ(fault, std::nullopt) << scene.structure.title();
+      if (!fault) continue;
+      std::ofstream("changed-input", std::ios::binary) << changed;
+      FAIL() << "kds_minimize " << target.name << " small changed-input";
+    }
   });
 }
 
@@ -47,8 +71,9 @@ TEST(FuzzKernels, CorpusHasNoFault) {
 TEST(FuzzKernels, TheProgramRunsWhatIsWritten) {
   const ScratchDirectory scratch;
   int runs = 0;
-  each_scene([&](const FuzzTarget& target, const SmallScene& small) {
+  each_input([&](const FuzzTarget& target, const std::string& bytes) {
     if (target.name != "kernels") return;
+    const SmallScene small = target.scene_of(bytes);
     std::vector<std::string> arguments = write_scene(small, (scratch / "scene").string());
     arguments.insert(arguments.end(), {"--json", "-"});
     Outcome outcome;
