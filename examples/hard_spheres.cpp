@@ -4,13 +4,10 @@
 #include <cinttypes>
 #include <cstdio>
 #include <ctime>
-#include <exception>
 #include <string>
 
-namespace {
-
 /// Prints the compressibility factor Z = pV / NkT and its standard error, from 20 parts of the run.
-void measure(int side, double packing, std::size_t collisions) {
+static void measure(int side, double packing, std::size_t collisions) {
   constexpr int parts = 20;
   HardSpheres balls(side, packing, 0.05);
   const double energy = balls.energy(), n = static_cast<double>(balls.count());
@@ -20,7 +17,8 @@ void measure(int side, double packing, std::size_t collisions) {
   double sum = 0, squares = 0;
   for (int part = 1; part <= parts; ++part) {
     const double virial = balls.virial, time = balls.time;
-    while (balls.collisions < melted + collisions * part / parts) balls.step();
+    do balls.step();
+    while (balls.collisions < melted + collisions * part / parts);
     // The energy is 3/2 (N - 1) kT, because the sum of all momenta is 0.
     const double z = 1 + (n - 1) / n * (balls.virial - virial) / (2 * energy * (balls.time - time));
     sum += z;
@@ -37,14 +35,13 @@ void measure(int side, double packing, std::size_t collisions) {
               static_cast<double>(balls.collisions) / seconds);
 }
 
-}  // namespace
-
 int main(int argc, char** argv) {
   try {
     measure(argc > 1 ? std::stoi(argv[1]) : 4, argc > 2 ? std::stod(argv[2]) : 0.3,
             argc > 3 ? std::stoul(argv[3]) : 4000);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "wrong arguments (%s): expected [CELLS [PACKING [COLLISIONS]]], as 4 0.3 4000\n",
+    std::fprintf(stderr,
+                 "hard_spheres: %s\nusage: hard_spheres [CELLS [PACKING [COLLISIONS]]], such as 4 0.3 4000\n",
                  error.what());
     return 2;
   }

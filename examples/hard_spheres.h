@@ -6,9 +6,10 @@
 // finds the exact times at which balls of the plan meet, so no collision is missed, and their order is right.
 //
 // Rounded: after a collision, two balls follow new lines. Their velocities and first points are rounded to
-// doubles. The points are put 1 + 1e-12 apart, more than 1 by far more than the rounding errors, so that no
-// line begins with an overlap. Only +, -, *, / and sqrt are used, which IEEE 754 rounds alike on all
-// machines, so each machine finds the same events.
+// doubles. The points are put 1 + 1e-12 apart. The gap exceeds all rounding errors while coordinates are
+// below 1000, so no line begins with an overlap. Only +, -, *, /, sqrt and round are used, and never fused
+// (kds sets -ffp-contract=off). IEEE 754 rounds them alike on all machines, so each machine finds the same
+// events.
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -28,8 +29,9 @@ class HardSpheres {
  public:
   using Vector = Eigen::Vector3d;
 
-  /// Makes 4 * side^3 balls in a face-centred cubic lattice, with random velocities whose sum is 0. Packing
-  /// is the balls' share of the volume. The speed of a run depends on the duration of a step.
+  /// Makes 4 * side^3 balls in a face-centred cubic lattice, with random velocities whose sum is 0, but for
+  /// rounding. Packing is the balls' share of the volume. The speed of a run depends on the duration of a
+  /// step.
   HardSpheres(int side, double packing, double duration, kds::Kernel kernel = kds::Kernel::filtered)
       : duration_(duration),
         velocities_(side < 2
@@ -92,6 +94,8 @@ class HardSpheres {
   /// Lets a ball follow the line that passes through a point at time u of the step.
   void fly(kds::BeadId i, const Vector& point, double u) {
     const Vector way = duration_ * velocities_[i], start = point - u * way, end = point + (1 - u) * way;
+    if (!(start.cwiseAbs().maxCoeff() < 1000 && end.cwiseAbs().maxCoeff() < 1000))
+      throw std::range_error("a ball is 1000 diameters from the origin, where rounding could make overlaps");
     for (int k = 0; k < 3; ++k) {
       motion_.set_coordinate(i, 0, k, start[k]);
       motion_.set_coordinate(i, 1, k, end[k]);
@@ -107,8 +111,8 @@ class HardSpheres {
     for (int k = 0; k < 3; ++k) way[k] -= edge_ * std::round(apart[k] / edge_);
     return way;
   }
-  /// Returns the present time in the step, rounded, at which two balls meet. The bracket of the time would
-  /// not do: its width depends on how the time was found.
+  /// Returns the present time in the step, rounded, at which two balls meet. The bracket of `now()` depends
+  /// on the kernel.
   [[nodiscard]] double meeting_time(kds::BeadId i, kds::BeadId j) const {
     const double near = simulator_.now().lower();
     const Vector start = between(i, j, 0, near), way = between(i, j, 1, near) - start;

@@ -27,8 +27,8 @@ struct Line {
   Vector start{}, end{};  // at u = 0 and u = 1 of a step
 };
 
-/// The way from an image of one ball to another on their lines, in integers: all numbers are in units of a
-/// power of two, `one` of which are 1.
+/// The vector from one ball to an image of another, both on lines, in integers. All numbers are multiples of
+/// a power of two; `one_` of these units are 1.
 class ExactWay {
  public:
   /// Uses the image that is nearest at `when`. Times that are asked for are multiples of 2^-152.
@@ -45,7 +45,7 @@ class ExactWay {
       way_[k] = whole(a.end[k]) - whole(b.end[k]) - shift - start_[k];
     }
   }
-  /// Returns the sign of the distance at u less 1.
+  /// Returns the sign of (distance at u) - 1.
   [[nodiscard]] int distance(double u) const { return (square(at(u)) - one_ * one_ * one_ * one_).sign(); }
   /// Returns the sign of the distance's derivative at u.
   [[nodiscard]] int derivative(double u) const { return product(at(u), way_).sign(); }
