@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kds/event_log.h"
 #include "motions/base/input_error.h"
 #include "tests/laws/law_run.h"
 #include "tests/support/judges/contact_events.h"
@@ -12,10 +13,7 @@ namespace kds::test {
 
 namespace {
 
-/// Limb operations after which a run is given up, within about a second even under the sanitizers.
-constexpr std::uint64_t most_work = 1'000'000;
-
-/// Runs the scene twice and compares both runs, the first of which has these kernel and audits.
+/// Runs the scene plainly, then with this kernel and these audits, and compares both runs.
 std::optional<std::string> compare(const SmallScene& small, Kernel kernel, AuditMode audits) {
   const Scene scene = make_scene(small);
   const LawStructure& row = small.structure;
@@ -23,22 +21,14 @@ std::optional<std::string> compare(const SmallScene& small, Kernel kernel, Audit
   const Outcome plain = run_scene(scene, row, Kernel::filtered, AuditMode::none, false, most_work);
   if (plain.failed) return plain.ending;
   const Outcome other = run_scene(scene, row, kernel, audits, true, most_work);
-  if (!plain.is_decided() || !other.is_decided()) return std::nullopt;
   if (other.failed) return other.ending;
+  if (!plain.is_decided() || !other.is_decided()) return std::nullopt;
   return difference(other, plain);
-}
-
-std::optional<std::string> fault_of_kernels(const SmallScene& small) {
-  return compare(small, Kernel::exact, AuditMode::none);
-}
-
-std::optional<std::string> fault_of_audits(const SmallScene& small) {
-  return compare(small, Kernel::filtered, AuditMode::events);
 }
 
 std::optional<std::string> fault_of_contacts(const SmallScene& small) {
   const Scene scene = make_scene(small);
-  std::vector<Space> steps(small.rows() - 1, Space(small.beads.size()));
+  std::vector<Space> steps(small.place_count() - 1, Space(small.beads.size()));
   for (std::size_t step = 0; step < steps.size(); ++step)
     for (BeadId b = 0; b < small.beads.size(); ++b)
       for (int k = 0; k < 2; ++k) {
@@ -67,7 +57,7 @@ std::optional<std::string> fault_of_contacts(const SmallScene& small) {
 
 std::optional<std::string> fault_of_crossings(const SmallScene& small) {
   const Scene scene = make_scene(small);
-  WholeFrames frames(small.rows());
+  WholeFrames frames(small.place_count());
   for (const auto& bead : small.beads)
     for (std::size_t k = 0; k < frames.size(); ++k) {
       const auto& place = bead.places[k];
@@ -86,8 +76,10 @@ std::optional<std::string> fault_of_crossings(const SmallScene& small) {
 
 const std::vector<FuzzTarget>& fuzz_targets() {
   static const std::vector<FuzzTarget> targets{
-      {"kernels", Values::wild, "", fault_of_kernels},
-      {"audits", Values::mild, "", fault_of_audits},
+      {"kernels", Values::wild, "",
+       [](const SmallScene& small) { return compare(small, Kernel::exact, AuditMode::none); }},
+      {"audits", Values::mild, "",
+       [](const SmallScene& small) { return compare(small, Kernel::filtered, AuditMode::events); }},
       {"contacts", Values::mild, "contacts", fault_of_contacts},
       {"crossings", Values::whole, "crossings", fault_of_crossings},
   };

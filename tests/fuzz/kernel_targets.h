@@ -1,6 +1,7 @@
 #pragma once
 // What the fuzzer of kernels compares, one target each.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +11,9 @@
 
 namespace kds::test {
 
+/// Limb operations after which a run is given up, within about a second even under the sanitizers.
+inline constexpr std::uint64_t most_work = 1'000'000;
+
 struct FuzzTarget {
   std::string_view name;
   Values values;
@@ -18,8 +22,7 @@ struct FuzzTarget {
   std::optional<std::string> (*judge)(const SmallScene&);
 
   [[nodiscard]] SmallScene scene_of(std::string_view bytes) const {
-    return scene_of_bytes({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, values,
-                          structure);
+    return scene_of_bytes(bytes, values, structure);
   }
   /// Returns the fault that the judge finds, or the message of an exception. A scene that is refused, or
   /// takes too much exact work, has no fault.

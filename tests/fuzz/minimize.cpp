@@ -58,7 +58,7 @@ class Minimizer {
 
   bool drop_places() {
     bool any = false;
-    for (std::size_t k = scene_.rows(); k-- > 0 && scene_.rows() > 2;)
+    for (std::size_t k = scene_.place_count(); k-- > 0 && scene_.place_count() > 2;)
       any |= take([&](SmallScene& s) {
         for (auto& bead : s.beads) bead.places.erase(bead.places.begin() + static_cast<std::ptrdiff_t>(k));
       });

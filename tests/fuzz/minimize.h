@@ -7,9 +7,9 @@
 
 namespace kds::test {
 
-/// Returns a scene for which `is_faulty` holds, as it must for `scene`, although it fails for every scene
-/// that is one step smaller: one bead, place or coordinate less, necklaces joined, lines instead of Hermite
-/// curves, or one number replaced by a simpler one.
+/// Returns a scene for which `is_faulty` holds, as it must for `scene`. No single change that is tried keeps
+/// a fault: a bead, a place or the last column dropped, necklaces joined, lines instead of Hermite curves, a
+/// simpler number. The fault may be another than that of `scene`.
 [[nodiscard]] SmallScene minimized(SmallScene scene, const std::function<bool(const SmallScene&)>& is_faulty);
 
 }  // namespace kds::test

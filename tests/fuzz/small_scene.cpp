@@ -19,12 +19,14 @@ constexpr std::size_t most_beads = 8;
 
 class Decoder {
  public:
-  Decoder(std::span<const std::uint8_t> bytes, Values values) : bytes_(bytes), values_(values) {}
+  Decoder(std::string_view bytes, Values values) : bytes_(bytes), values_(values) {}
 
-  [[nodiscard]] unsigned byte() { return next_ < bytes_.size() ? bytes_[next_++] : 0U; }
+  [[nodiscard]] unsigned byte() {
+    return next_ < bytes_.size() ? static_cast<unsigned char>(bytes_[next_++]) : 0U;
+  }
 
-  /// Returns a coordinate. Some depend on others: `bead` is that of the bead before at the same place, `row`
-  /// and `row_before` are the bead's own in the places before, `axis` is that of the axis before.
+  /// Returns a coordinate, which may depend on others: `bead` of the bead before, `row` and `row_before` of
+  /// this bead one and two places before, `axis` of the axis before.
   [[nodiscard]] double number(double bead, double row, double row_before, double axis) {
     const unsigned kind = byte(), argument = byte();
     const auto whole = static_cast<double>(argument % 17) - 8;
@@ -73,7 +75,7 @@ class Decoder {
     return std::abs(x) <= most ? x : otherwise;
   }
 
-  std::span<const std::uint8_t> bytes_;
+  std::string_view bytes_;
   std::size_t next_ = 0;
   Values values_;
 };
@@ -92,7 +94,7 @@ std::vector<Trajectory> necklaces_of(const SmallScene& small) {
   std::vector<Trajectory> necklaces;
   for (const auto& beads : parts) {
     Trajectory& necklace = necklaces.emplace_back();
-    for (std::size_t k = 0; k < small.rows(); ++k) {
+    for (std::size_t k = 0; k < small.place_count(); ++k) {
       auto& frame = necklace.frames.emplace_back(3, static_cast<Eigen::Index>(beads.size()));
       for (std::size_t b = 0; b < beads.size(); ++b)
         frame.col(static_cast<Eigen::Index>(b)) =
@@ -103,7 +105,8 @@ std::vector<Trajectory> necklaces_of(const SmallScene& small) {
 }
 
 Instance instance_of(const SmallScene& small) {
-  Instance instance{"scene", static_cast<int>(small.columns()), static_cast<int>(small.rows()) - 1, {}};
+  Instance instance{
+      "scene", static_cast<int>(small.columns()), static_cast<int>(small.place_count()) - 1, {}};
   for (const auto& bead : small.beads)
     for (std::size_t column = 0; column < small.columns(); ++column)
       for (const auto& place : bead.places) instance.control_points.push_back(place[column]);
@@ -112,7 +115,7 @@ Instance instance_of(const SmallScene& small) {
 
 }  // namespace
 
-SmallScene scene_of_bytes(std::span<const std::uint8_t> bytes, Values values, std::string_view structure) {
+SmallScene scene_of_bytes(std::string_view bytes, Values values, std::string_view structure) {
   Decoder decoder(bytes, values);
   SmallScene small{.structure = law_structures()[decoder.byte() % law_structures().size()]};
   const bool only_lines = !structure.empty();
@@ -190,9 +193,9 @@ std::vector<std::string> write_scene(const SmallScene& small, const std::string&
                                        small.hermite ? "hermite" : "linear"});
   } else {
     std::ofstream file = add(".txt");
-    file << fmt::format("{} {} {}\n", small.beads.size(), small.columns(), small.rows() - 1);
+    file << fmt::format("{} {} {}\n", small.beads.size(), small.columns(), small.place_count() - 1);
     const Instance instance = instance_of(small);
-    const std::size_t numbers = small.columns() * small.rows();
+    const std::size_t numbers = small.columns() * small.place_count();
     for (std::size_t at = 0; at < instance.control_points.size(); at += numbers)
       write_numbers(file, {instance.control_points.begin() + static_cast<std::ptrdiff_t>(at),
                            instance.control_points.begin() + static_cast<std::ptrdiff_t>(at + numbers)});

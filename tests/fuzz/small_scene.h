@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,18 +17,17 @@ namespace kds::test {
 /// The numbers that bytes stand for.
 enum class Values : std::uint8_t {
   whole,  ///< whole, from -8 to 8
-  mild,   ///< besides: quarters, neighbours of other numbers, numbers with 53 bits; all below 100
-  wild    ///< besides: numbers from 2^-1032 to 2^1009
+  mild,   ///< also quarters, neighbours of other numbers, numbers with 53 bits; all below 100
+  wild    ///< also numbers from 2^-1032 to 2^1009
 };
 
 struct SmallScene {
   struct Bead {
     bool begins = false;  ///< whether a necklace begins here, as with bead 0; ignored in an instance
     double radius = 0;    ///< ignored in an instance
-    /// The bead's places in all frames, or its control points. A place has as many numbers as all others: its
-    /// coordinates and, if an instance has four, its weight.
+    /// The bead's places in all frames, or its control points. All places of a scene have equally many
+    /// numbers: coordinates and, if an instance has four, a weight.
     std::vector<std::vector<double>> places = {};
-    friend bool operator==(const Bead&, const Bead&) = default;
   };
 
   LawStructure structure = {};
@@ -37,14 +35,14 @@ struct SmallScene {
   bool hermite = false;    ///< how frames are joined
   std::vector<Bead> beads = {};
 
-  [[nodiscard]] std::size_t rows() const { return beads.front().places.size(); }
+  [[nodiscard]] std::size_t place_count() const { return beads.front().places.size(); }
   [[nodiscard]] std::size_t columns() const { return beads.front().places.front().size(); }
 };
 
 /// Makes a scene of bytes: the structure, the shape, the number of beads, then a byte for each radius and two
 /// for each coordinate. Missing bytes are 0. If a structure is given, the scene has it, and frames that are
 /// joined by lines.
-[[nodiscard]] SmallScene scene_of_bytes(std::span<const std::uint8_t> bytes, Values values,
+[[nodiscard]] SmallScene scene_of_bytes(std::string_view bytes, Values values,
                                         std::string_view structure = {});
 
 /// Reads an instance file, or the frames of a trajectory, whose beads get this radius. Throws InputError.
