@@ -48,6 +48,7 @@ IntervalRecord record_of(const ContactInterval& interval) {
   const auto at = [](const ContactMoment& moment) {
     const auto step = static_cast<double>(moment.step), time = step + moment.u();
     if (moment.upper == 0 || moment.lower == 1) return time;
+    // Rounding must not move a time within a step to a frame.
     return std::clamp(time, std::nextafter(step, step + 1), std::nextafter(step + 1, step));
   };
   const RoundedTime &begin = interval.begin.rounded, &end = interval.end.rounded;

@@ -50,7 +50,7 @@ struct IntervalRecord {
   double begin_frame = 0, end_frame = 0;              ///< in frames of the file, with a fraction
   double begin_picoseconds = 0, end_picoseconds = 0;  ///< 0 if the frames have no times
   double length = 0;                                  ///< in units of the clock
-  double begin = 0, end = 0;                          ///< counted in steps; whole only at a frame
+  double begin = 0, end = 0;                          ///< in steps; whole only if exactly at a frame
   bool open_at_start = false, open_at_end = false;
 };
 

@@ -568,7 +568,7 @@ void NearImages<D>::compare_bead(BeadId bead, std::span<const BeadId> done, bool
                                  ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
   if (groups_of(bead) == 0) return;
   const Swept& one = swept_[places_[bead]];
-  Point from{};  // where the other bead sees the image
+  Point from{};  // center of the bead's image
   double own_reach = 0;
   const auto look_from = [&](const Shift& image) {
     const Point moved = vector_to(image);
@@ -610,7 +610,7 @@ void NearImages<D>::compare_bead(BeadId bead, std::span<const BeadId> done, bool
     }
   for_each_shift(most, [&](const Shift& image) {
     look_from(image);
-    const double reach = own_reach + grid_reach_;  // no bead that has moved reaches farther
+    const double reach = own_reach + grid_reach_;  // grid_reach_ is at least the reach of each moved bead
     for (std::size_t axis = 0; axis < dimension; ++axis)
       if (low[axis] - from[axis] > reach || from[axis] - high[axis] > reach) return;
     for (const BeadId other : moved_) compare_with(swept_[places_[other]], image);
