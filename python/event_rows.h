@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "kds/kinetic_structure.h"
 
 namespace kds::python {

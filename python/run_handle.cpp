@@ -236,10 +236,10 @@ void RunHandle::execute(const py::object& progress) {
 void RunHandle::write_log(const std::string& path) {
   if (memory_ || !scene_ || scene_->is_live() || !only_.empty())
     throw InputError(
-        "log: a log names the files of its frames and starts with all beads; expected a path as "
-        "input, and no only");
+        "log: needs a path as input and all beads (no only), because a log names its input files");
+  if (log_) throw std::logic_error("write_log(): the run has a log already");
   check_output(options_, "log", path);
-  log_.emplace(path, options_, *scene_, run_->structures());
+  log_.emplace(path, options_, *scene_, run_->structures(), /*edits=*/true);
   run_->listen(*log_);
 }
 
@@ -283,17 +283,17 @@ void RunHandle::go_to(double time) {
 }
 
 void RunHandle::go(double time) {
-  if (log_ && run_->is_past(time))
-    throw InputError("frame: a run that writes a log cannot go back");
+  if (log_ && run_->is_past(time)) throw InputError("frame: a run that writes a log cannot go back");
   run_->go_to(time);
 }
 
 void RunHandle::finish() {
   const Use use(*this);
   run_->finish();
-  if (!log_ || std::exchange(is_logged_, true)) return;
+  if (!log_ || is_logged_) return;
   log_->end(run_->simulator().fingerprint());
   commit_together({&log_->file()});
+  is_logged_ = true;
 }
 
 void RunHandle::audit() {

@@ -146,7 +146,7 @@ class RunHandle {
   std::unique_ptr<Scene> scene_;  // empty if frames are pushed
   std::unique_ptr<KineticRun> run_;
   bool is_behind_ = false;           // all steps were run on several threads, and `run_` stands at its start
-  std::optional<ViewResults> view_;  // listens to `run_`, as `log_`
+  std::optional<ViewResults> view_;  // listens to `run_`, as does `log_`
   std::optional<EventLogWriter> log_;
   bool is_logged_ = false;  // whether the file of `log_` is complete
   EventRows events_;

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "experiments/output/text.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -409,11 +409,6 @@ int OutputStream::Buffer::sync() {
   }
   setp(bytes.data(), bytes.data() + bytes.size());
   return error == 0 ? 0 : -1;
-}
-
-OutputStream::Buffer::pos_type OutputStream::Buffer::seekpos(pos_type position, std::ios_base::openmode) {
-  const bool done = sync() == 0 && ::lseek(descriptor, static_cast<off_t>(position), SEEK_SET) >= 0;
-  return done ? position : pos_type(off_type(-1));
 }
 
 OutputStream::OutputStream(int descriptor, std::string subject)

@@ -77,7 +77,6 @@ class OutputStream final : public std::ostream {
     explicit Buffer(int number);
     int_type overflow(int_type c) override;
     int sync() override;
-    pos_type seekpos(pos_type position, std::ios_base::openmode) override;
 
     int descriptor;
     int error = 0;  ///< errno of the first write that failed; later writes are not attempted

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "experiments/run/run_options.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/base/bead.h"
 #include "motions/scene/stride_deviation.h"
 

@@ -25,6 +25,10 @@ constexpr std::string_view first_line = "kds event log 2", first_line_before = "
 constexpr std::array<std::string_view, 3> edit_names{"insert", "erase", "change"};  // as Edit::Kind
 constexpr std::string_view time_names[] = {"at", "before"};
 
+std::string text_of(const Dyadic& time) {
+  return fmt::format("0x{}p-{}", time.numerator().get_str(16), time.exponent());
+}
+
 // Reads the fields of a line one by one. Throws InputError if a field does not fit.
 class Fields {
  public:
@@ -55,26 +59,11 @@ class Fields {
 
   /// Reads one of the names and returns its index.
   std::size_t choice(std::span<const std::string_view> names) {
-    const std::string_view text = word(names[0]);
-    const auto found = std::find(names.begin(), names.end(), text);
-    if (found == names.end()) refuse(fmt::format("one of {}", fmt::join(names, ", ")), text);
-    return static_cast<std::size_t>(found - names.begin());
-  }
-  /// Reads a coordinate, as `{:a}` writes it.
-  double coordinate() {
-    constexpr std::string_view expected = "a finite coordinate such as -0x1.8p+2";
+    const std::string expected = fmt::format("one of {}", fmt::join(names, ", "));
     const std::string_view text = word(expected);
-    const bool negative = text.starts_with('-');
-    std::string_view digits = text.substr(negative ? 1 : 0);
-    double value = 0;
-    if (!digits.starts_with("0x")) refuse(expected, text);
-    digits.remove_prefix(2);
-    const auto result =
-        std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
-    if (result.ec != std::errc() || result.ptr != digits.data() + digits.size() || digits.starts_with('-') ||
-        !std::isfinite(value))
-      refuse(expected, text);
-    return negative ? -value : value;
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found == names.end()) refuse(expected, text);
+    return static_cast<std::size_t>(found - names.begin());
   }
   /// Reads a time in a step, as text_of writes it.
   Dyadic time() {
@@ -90,7 +79,7 @@ class Fields {
         result.ptr != power.data() + power.size() || exponent > most)
       refuse(expected, text);
     const Dyadic time(numerator, exponent);
-    if (time < Dyadic(0.0) || !(time < Dyadic(1.0))) refuse(expected, text);
+    if (time < Dyadic(0.0) || !(time < Dyadic(1.0)) || text_of(time) != text) refuse(expected, text);
     return time;
   }
   [[noreturn]] void refuse(std::string_view expected, std::string_view found) const {
@@ -102,10 +91,6 @@ class Fields {
   std::string_view rest_;
   const LineReader& lines_;
 };
-
-std::string text_of(const Dyadic& time) {
-  return fmt::format("0x{}p-{}", time.numerator().get_str(16), time.exponent());
-}
 
 // Reads the second line of the log, which says what the run was asked to do and on which input.
 bool read_header(const Json& json, EventLogHeader& header) {
@@ -143,7 +128,8 @@ std::uint64_t read_hash(Fields& fields, std::string_view line, std::string_view 
 }  // namespace
 
 EventLogWriter::EventLogWriter(const std::filesystem::path& path, const RunOptions& options,
-                               const Scene& scene, const std::vector<KineticStructure*>& structures)
+                               const Scene& scene, const std::vector<KineticStructure*>& structures,
+                               bool edits)
     : stream_(file_.open(path)) {
   for (const KineticStructure* const structure : structures) structures_.push_back(structure->name());
   const std::optional<std::string> header = line_of({{"version", program_version()},
@@ -152,7 +138,7 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const RunOptio
                                                      {"steps", scene.step_count()}});
   if (!header)
     throw InputError("--log: a name among the arguments is not UTF-8, so it cannot be written to a log");
-  stream_ << first_line << '\n' << *header << '\n';
+  stream_ << (edits ? first_line_with_edits : first_line) << '\n' << *header << '\n';
 }
 
 void EventLogWriter::on_event(const Event& event) {
@@ -165,7 +151,6 @@ void EventLogWriter::on_event(const Event& event) {
 }
 
 void EventLogWriter::on_edit(const Edit& edit) {
-  has_edits_ = true;
   begin(edit.step);
   const std::string line = fmt::format("edit {} {} {} {}", edit.step, time_names[edit.after_failure ? 1 : 0],
                                        text_of(edit.time), edit_names[static_cast<std::size_t>(edit.kind)]);
@@ -173,9 +158,9 @@ void EventLogWriter::on_edit(const Edit& edit) {
     return add(fmt::format("{} {} {}", line, structures_[edit.structure], edit.beads[0]));
   add(fmt::format("{} {}", line, edit.beads.size()));
   for (std::size_t i = 0; i < edit.beads.size(); ++i) {
-    const std::size_t numbers = edit.points.size() / edit.beads.size();
+    const std::size_t numbers = edit.coordinates.size() / edit.beads.size();
     std::string curve = fmt::format("curve {}", edit.beads[i]);
-    for (std::size_t k = 0; k < numbers; ++k) curve += fmt::format(" {:a}", edit.points[i * numbers + k]);
+    for (std::size_t k = 0; k < numbers; ++k) curve += fmt::format(" {}", edit.coordinates[i * numbers + k]);
     add(curve);
   }
 }
@@ -202,8 +187,6 @@ void EventLogWriter::end_step() {
 void EventLogWriter::end(std::uint64_t fingerprint) {
   end_step();
   stream_ << fmt::format("end {} {:016x}\n", events_, fingerprint);
-  if (has_edits_ && !(stream_.seekp(0) << first_line_with_edits))
-    throw InputError("--log", "the run has edits, so its log must be a file and not a pipe");
 }
 
 EventLogReader::EventLogReader(const std::filesystem::path& path) : lines_(path) {
@@ -215,6 +198,9 @@ EventLogReader::EventLogReader(const std::filesystem::path& path) : lines_(path)
                     "--log to write version 2",
                     lines_.name()));
   header_.has_edits = there && line == first_line_with_edits;
+  if (there && line != first_line && !header_.has_edits && line.starts_with("kds event log "))
+    throw InputError(fmt::format("{}:1: this version of event logs is not known; expected '{}' or '{}'",
+                                 lines_.name(), first_line, first_line_with_edits));
   if (!there || (line != first_line && !header_.has_edits))
     throw InputError(fmt::format("{}:1: expected '{}': this is no event log", lines_.name(), first_line));
   if (!lines_.next(line) || !read_header(parse_json(line), header_))
@@ -246,7 +232,7 @@ const EventLogReader::Entry* EventLogReader::next() {
 void EventLogReader::begin_entry(std::size_t step) {
   entry_.line = lines_.number();
   if (in_step_ ? step != entry_.step : step < first_free_step_)
-    throw InputError(fmt::format("{}: an event of step {} among or after those of another", where(), step));
+    throw InputError(fmt::format("{}: a line of step {} among or after those of another", where(), step));
   entry_.step = step;
   entry_.edit.reset();
   if (step >= header_.steps) throw InputError(fmt::format("{}: step {} of {}", where(), step, header_.steps));
@@ -282,9 +268,9 @@ void EventLogReader::read_curve(Edit& edit) {
   Fields fields(line, lines_);
   fields.word("curve");
   add_bead(edit, fields.number<BeadId>("a bead"));
-  const std::size_t before = edit.points.size();
-  while (!fields.at_end()) edit.points.push_back(fields.coordinate());
-  if (before != (edit.points.size() - before) * (edit.beads.size() - 1))
+  const std::size_t before = edit.coordinates.size();
+  while (!fields.at_end()) edit.coordinates.push_back(fields.number<double>("a coordinate"));
+  if (before != (edit.coordinates.size() - before) * (edit.beads.size() - 1))
     throw InputError(fmt::format("{}: has more or fewer coordinates than the curve before", where()));
   add_line(step_hash_, line);
 }

@@ -11,9 +11,9 @@
 //   step STEP EVENTS HASH                          (after the lines of each step that has any)
 //   end EVENTS FINGERPRINT
 //
-// A log with edits has version 3 in its first line. An edit stands before the events that it causes. Its time
-// is exactly TIME (`at`) or that of the last failure before TIME (`before`). Times and coordinates of edits
-// are exact hexadecimal numbers.
+// A log that may have edits has version 3 in its first line. An edit stands before the events that it causes.
+// Its time is exactly TIME (`at`), a hexadecimal number, or that of the last failure before TIME (`before`).
+// Coordinates have the digits that give the same double again.
 //
 // The time of an event lies strictly between LOWER and UPPER, or equals both. HASH is a hash of the step's
 // lines, so that a line which the run did not write is detected. The arguments are the arguments of kds run.
@@ -28,6 +28,7 @@
 
 #include "experiments/output/output_files.h"
 #include "experiments/run/run_options.h"
+#include "kds/event.h"
 #include "kds/event_log.h"
 #include "motions/base/input_file.h"
 #include "motions/scene/scene.h"
@@ -36,8 +37,9 @@ namespace kds {
 
 class EventLogWriter final : public EventListener {
  public:
+  /// Writes version 3 if the run may have `edits`.
   EventLogWriter(const std::filesystem::path& path, const RunOptions& options, const Scene& scene,
-                 const std::vector<KineticStructure*>& structures);
+                 const std::vector<KineticStructure*>& structures, bool edits);
   void on_event(const Event& event) override;
   void on_edit(const Edit& edit) override;
   /// Writes the last line of the log.
@@ -52,7 +54,6 @@ class EventLogWriter final : public EventListener {
   AtomicFiles file_;
   std::ostream& stream_;
   std::vector<std::string_view> structures_;
-  bool has_edits_ = false;
   std::uint64_t events_ = 0;
   std::size_t step_ = 0;  ///< step of the lines hashed in step_hash_
   bool in_step_ = false;  ///< whether step_hash_ has a line
@@ -80,8 +81,9 @@ class EventLogReader {
     std::string structure, kind;
     double lower = 0, upper = 0;
     std::vector<BeadId> ids;
-    std::optional<Edit>
-        edit;  ///< if set, only `line`, `step` and `structure`, that of the edit, are valid too
+    /// If set, the entry is an edit: `kind`, `lower`, `upper` and `ids` are not valid, and `structure` is
+    /// that of an insertion or erasure.
+    std::optional<Edit> edit;
   };
 
   [[nodiscard]] const EventLogHeader& header() const { return header_; }

@@ -22,6 +22,7 @@
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_results.h"
+#include "kds/event_log.h"
 #include "motions/base/input_error.h"
 #include "structures/session/kinetic_run.h"
 
@@ -67,7 +68,7 @@ class LogComparison final : public EventListener {
     if (difference_) return;
     const EventLogReader::Entry* const entry = log_.next();
     if (entry == nullptr || !entry->edit || entry->edit->where != edit.where)
-      part(fmt::format("{}: an edit, which does not stand where the run makes it", edit.where));
+      part(fmt::format("{}: the run makes this edit between other events", edit.where));
   }
 
   // Called after the last event of the run: the log must have no further event either.
@@ -115,7 +116,7 @@ class LogComparison final : public EventListener {
   std::optional<std::string> difference_;
 };
 
-// Returns the edits of a log, which has some.
+// Returns all edits of a log, with indices of the run's structures.
 std::vector<Edit> logged_edits(const std::filesystem::path& path, const std::vector<KineticStructure*>& all) {
   std::vector<Edit> edits;
   EventLogReader log(path);
@@ -151,7 +152,8 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
                                  scene.bead_count(), scene.step_count(), log.header().beads,
                                  log.header().steps));
   }
-  // Brackets of logs without edits may need exact times, which are known on one thread.
+  // Logs of earlier versions of kds have wider brackets, which are compared with exact times. Exact times are
+  // known on one thread only.
   RunOptions opened = options;
   if (!log.header().has_edits || (results != nullptr && results->has_page())) opened.threads = 1;
   const auto run = open_parallel_run(opened, scene, options.audit, {}, warnings.hold());

@@ -74,7 +74,7 @@ void RunResults::add_certificate(const StrideCertificate& certificate, const Sce
 
 void RunResults::begin_dump_and_log(const RunOptions& options, const Scene& scene, KineticRun& run) {
   if (options.log) {
-    log_.emplace(*options.log, options, scene, run.structures());
+    log_.emplace(*options.log, options, scene, run.structures(), /*edits=*/false);
     run.simulator().listen(*log_);
   }
   if (!options.dump) return;

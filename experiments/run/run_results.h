@@ -17,7 +17,7 @@
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "experiments/view/view_results.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/scene/scene.h"
 #include "structures/session/kinetic_run.h"
 
@@ -32,7 +32,7 @@ class RunResults {
         events_path_(std::move(events)),
         page_path_(std::move(view)) {}
 
-  /// Returns whether a page shows the run. It reads the structures while the run goes on.
+  /// Returns whether a replay page is written. The page reads the structures while the run goes on.
   [[nodiscard]] bool has_page() const { return page_path_.has_value(); }
   /// Starts the output files of a run with these options once the input is accepted. The files listen to the
   /// run, which must not run after this object is destroyed. The scene must remain until `end_run`. In a

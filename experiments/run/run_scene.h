@@ -15,7 +15,7 @@
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_results.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "kds/simulator.h"
 #include "motions/scene/scene.h"
 #include "structures/session/kinetic_run.h"

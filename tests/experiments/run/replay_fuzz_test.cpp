@@ -21,7 +21,7 @@
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_results.h"
 #include "experiments/run/run_scene.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
@@ -286,7 +286,7 @@ Lines edited_log(const Arguments& arguments, const ScratchDirectory& directory,
   const Scene scene = load_scene(options, [](const std::string&) {});
   const auto run = open_run(options, scene, AuditMode::none);
   const std::string path = (directory / "edited.log").string();
-  EventLogWriter log(path, options, scene, run->structures());
+  EventLogWriter log(path, options, scene, run->structures(), /*edits=*/true);
   run->listen(log);
   make_edits(*run);
   run->finish();
@@ -297,7 +297,7 @@ Lines edited_log(const Arguments& arguments, const ScratchDirectory& directory,
   return lines;
 }
 
-TEST(EditedLogs, AreReplayedFromTheFile) {
+TEST(EditedLogs, AreReplayedOnSeveralThreads) {
   const ScratchDirectory directory;
   const std::string beads = oscillating_beads(50, 441, 0.02, directory);
   const auto make_edits = [](KineticRun& run) {
@@ -331,10 +331,18 @@ TEST(EditedLogs, AreReplayedFromTheFile) {
   EXPECT_THAT(program.out, testing::HasSubstr("fingerprint same"));
 }
 
-TEST(EditedLogs, WithoutEditsAreOfVersionTwo) {
+TEST(EditedLogs, AreReplayedWithoutEdits) {
   const ScratchDirectory directory;
   const Arguments arguments{oscillating_beads(10, 4, 0.5, directory), "--structures", "sorted"};
-  EXPECT_EQ(edited_log(arguments, directory, [](KineticRun&) {})[0], "kds event log 2");
+  Lines lines = edited_log(arguments, directory, [](KineticRun&) {});
+  EXPECT_EQ(lines[0], "kds event log 3");
+  EXPECT_EQ(replay(write_log(lines, directory)), Outcome::same);
+  lines[0] = "kds event log 2";
+  EXPECT_EQ(replay(write_log(lines, directory)), Outcome::same);
+  lines[0] = "kds event log 4";
+  std::string message;
+  EXPECT_EQ(replay(write_log(lines, directory), &message), Outcome::refused);
+  EXPECT_THAT(message, testing::HasSubstr("this version of event logs is not known; expected"));
 }
 
 TEST(EditedLogs, BadEditsAreRefusedInOneLine) {
@@ -372,21 +380,23 @@ TEST(EditedLogs, BadEditsAreRefusedInOneLine) {
   const std::vector<Bad> bad{
       {curve, joined(Lines(words.begin(), words.end() - 1)), curve + 1, "more or fewer coordinates than the"},
       {curve, with(1, "12"), curve, "bead 12 of 12"},
-      {curve, with(2, "nan"), curve, "expected a finite coordinate such as -0x1.8p+2, found 'nan'"},
-      {curve, with(2, "0x1p+2000"), curve, "expected a finite coordinate"},
-      {curve, with(2, "1.5"), curve, "expected a finite coordinate"},
+      {curve, with(2, "nan"), change, "nan"},
+      {curve, with(2, "1e999"), curve, "expected a coordinate, found '1e999'"},
+      {curve, with(2, "0x1p+2"), curve, "expected a coordinate, found '0x1p+2'"},
       {change, "edit 1 at 0x1p-2 change 3", curve + 2, "expected 'curve', a bead and its control points"},
       {change, "edit 1 at 0x1p-2 change 1", curve + 1, "expected a step, found 'curve'"},
       {change, "edit 1 at 0x1p-2 bend 2", change, "expected one of insert, erase, change, found 'bend'"},
       {change, "edit 1 at 0x5p-2 change 2", change, "expected a time from 0 to below 1"},
       {change, "edit 1 at 1/4 change 2", change, "expected a time from 0 to below 1"},
+      {change, "edit 1 at 0x2p-3 change 2", change, "expected a time from 0 to below 1"},
       {change, "edit 1 after 0x1p-2 change 2", change, "expected one of at, before, found 'after'"},
       {change, "edit 3 at 0x1p-2 change 2", change, "step 3 of 3"},
       {erase, erased + "erase sorted 12", erase, "bead 12 of 12"},
       {erase, erased + "erase power 5", erase, "the run has no structure power"},
       {erase, erased + "erase wrapped 5", erase, "wrapped: its beads cannot come and go"},
       {erase, erased + "insert sorted 5", erase, "sorted: bead 5 is among its beads already"},
-      {erase, "edit 1 at 0x1p-3 erase sorted 5", erase, "a run until u = 1/8"}};
+      {erase, "edit 1 at 0x1p-3 erase sorted 5", erase, "a run until u = 1/8"},
+      {erase, "edit 1 before 0x1p-3 erase sorted 5", erase, "the run is past the time of this edit"}};
   const auto expect_refused = [&](Lines lines, std::size_t named, const std::string& why) {
     SCOPED_TRACE(why);
     EXPECT_EQ(replay(write_log(lines, directory)), Outcome::refused);
