@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kds/event_log.h"
 #include "kds/known_events.h"
 #include "motions/curves/bezier_motion.h"
 #include "structures/session/kinetic_run.h"

@@ -11,8 +11,8 @@ namespace kds {
 
 namespace {
 
-/// Calls `visit` with the first edits of `edits`, which have at most this many events before them, and drops
-/// them from the list.
+/// Calls `visit` with the edits at the front of `edits` that have at most `events_before` events before them,
+/// and removes these edits from the span.
 template <class Visit>
 void take_edits(std::span<const LoggedEdit>& edits, std::size_t events_before, const Visit& visit) {
   for (; !edits.empty() && edits.front().events_before <= events_before; edits = edits.subspan(1))
@@ -33,10 +33,13 @@ void KnownEvents::replay_step(std::span<const ReplayedEvent> events, std::span<c
   const Simulator::ComputeScope scope(s);
   s.require(Simulator::Phase::between_steps, "a step");
   s.begin_step();
+  const auto follow = [&set_curves](const Edit& edit) {
+    if (edit.kind == Edit::Kind::change) set_curves(edit);
+  };
   for (std::size_t i = 0; i < events.size(); ++i) {
     const ReplayedEvent& event = events[i];
     InterruptionCheck::ask();
-    take_edits(edits, i, set_curves);
+    take_edits(edits, i, follow);
     s.now_ = Instant(FailureTime{event.lower, event.upper, 0, false});
     s.watch_.charge(Simulator::lane_of(event.structure));
     try {
@@ -47,7 +50,7 @@ void KnownEvents::replay_step(std::span<const ReplayedEvent> events, std::span<c
     s.record(event.structure, event.change);
     s.watch_.charge(Simulator::engine_lane);
   }
-  take_edits(edits, events.size(), set_curves);
+  take_edits(edits, events.size(), follow);
   s.finish_step();
 }
 
@@ -81,11 +84,11 @@ void KnownEvents::relay(std::size_t step, const FrameStamp& from, const FrameSta
   s.step_ = step;
   s.set_frames(from, to);
   const std::size_t before = s.watch_.charge(Simulator::listener_lane);
-  const auto tell_edit = [&s](const Edit& edit) { s.tell(edit); };
+  const auto notify = [&s](const Edit& edit) { s.notify(edit); };
   for (std::size_t i = 0; i < events.size(); ++i) {
     const RelayedEvent& event = events[i];
     InterruptionCheck::ask();
-    take_edits(edits, i, tell_edit);
+    take_edits(edits, i, notify);
     require_index("structure", event.structure, s.structures_.size());
     if (event.first_at_its_time) ++s.moment_;
     s.held_.function = event.certain ? event.certain->function : nullptr;
@@ -94,7 +97,7 @@ void KnownEvents::relay(std::size_t step, const FrameStamp& from, const FrameSta
     s.notify(event.structure, event.change, event.bracket, event.decided_by,
              [&event] { return event.certain ? event.certain->rounded : std::nullopt; });
   }
-  take_edits(edits, events.size(), tell_edit);
+  take_edits(edits, events.size(), notify);
   s.watch_.charge(before);
 }
 

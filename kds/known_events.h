@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "kds/event_log.h"
 #include "kds/simulator.h"
 
 namespace kds {
@@ -46,9 +47,10 @@ class KnownEvents {
   /// Like Simulator::build and run_step, but the changes come from a log. Throws std::invalid_argument, with
   /// the event's `where`, if a change cannot be made.
   void build_for_replay();
-  /// Calls `set_curves` with each edit when the events before it in `events` have been made.
-  void replay_step(std::span<const ReplayedEvent> events, std::span<const LoggedEdit> edits = {},
-                   const std::function<void(const Edit&)>& set_curves = {});
+  /// Calls `set_curves` with each change of course, after the events that come before it in the log.
+  void replay_step(std::span<const ReplayedEvent> events, std::span<const LoggedEdit> edits,
+                   const std::function<void(const Edit&)>& set_curves);
+  void replay_step(std::span<const ReplayedEvent> events) { replay_step(events, {}, {}); }
 
   // A run in parts (structures/session/parallel_run.h): several simulators run some steps each. Another
   // simulator, whose structures only have names, joins them.
@@ -57,7 +59,7 @@ class KnownEvents {
   void start_at(std::size_t step);
   /// Returns a copy of the present event that another simulator can relay.
   [[nodiscard]] RelayedEvent event_to_relay(const Event& event, bool first_at_its_time, bool exact) const;
-  /// Tells the listeners of the events and edits of a step that another simulator ran. The events are not
+  /// Notifies the listeners of the events and edits of a step that another simulator ran. The events are not
   /// counted.
   void relay(std::size_t step, const FrameStamp& from, const FrameStamp& to,
              std::span<const RelayedEvent> events, std::span<const LoggedEdit> edits = {});

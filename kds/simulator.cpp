@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "certificates/exact/exact_time.h"
+#include "kds/event_log.h"
 #include "kds/kinetic_structure.h"
 #include "motions/base/interruption.h"
 #include "motions/numbers/lanes.h"
@@ -144,11 +145,7 @@ void Simulator::run_until(const Dyadic& time) {
   watch_.charge(Stopwatch::stopped);
 }
 
-bool Simulator::run_next() { return run_one_moment(nullptr); }
-
-bool Simulator::run_next(const Dyadic& until) { return run_one_moment(&until); }
-
-bool Simulator::run_one_moment(const Dyadic* until) {
+bool Simulator::run_next(const Dyadic* until) {
   const ComputeScope scope(*this);
   require(Phase::within_step, "run_next()");
   const bool any = run_events<true>(until);
@@ -226,7 +223,7 @@ void Simulator::make_edit(Edit& edit, const std::function<void()>& make) {
     untold_ = nullptr;
     throw;
   }
-  if (const Edit* const untold = std::exchange(untold_, nullptr)) tell(*untold);
+  if (const Edit* const untold = std::exchange(untold_, nullptr)) notify(*untold);
   MutationScope mutation(*this);
   settle_batch();
   mutation.end();
@@ -431,14 +428,16 @@ auto Simulator::for_listeners(const Work& work) {
   return result;
 }
 
-void Simulator::tell(const Edit& edit) {
+void Simulator::notify(const Edit& edit) {
+  const std::size_t before = listeners_have_lane_ ? watch_.charge(listener_lane) : 0;
   MutationScope mutation(*this);
   for (EventListener* listener : listeners_) listener->on_edit(edit);
   mutation.end();
+  if (listeners_have_lane_) watch_.charge(before);
 }
 
 void Simulator::tell(std::size_t structure, const Change& change) {
-  if (const Edit* const untold = std::exchange(untold_, nullptr)) tell(*untold);
+  if (const Edit* const untold = std::exchange(untold_, nullptr)) notify(*untold);
   const std::size_t before = listeners_have_lane_ ? watch_.charge(listener_lane) : 0;
   // Certain digits are charged to the listeners in any case.
   const TimeBracket bracket = for_listeners([&] { return canonical_bracket(now_); });

@@ -14,7 +14,7 @@
 #include "certificates/base/kernel.h"
 #include "certificates/exact/exact_work.h"
 #include "certificates/exact/instant.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "kds/event_queue.h"
 #include "kds/failure_order.h"
 #include "kds/kinetic_structure.h"
@@ -75,10 +75,8 @@ class Simulator {
   void run_until(const Dyadic& time);
   void leave_step();
   /// Handles all events at the next time in the step at which something happens; this time may be irrational.
-  /// Returns false, and leaves the time unchanged, if nothing more happens in the step.
-  bool run_next();
-  /// Like run_next, but returns false also if nothing more happens up to that time.
-  bool run_next(const Dyadic& until);
+  /// Returns false, and leaves the time unchanged, if nothing more happens in the step, or up to `until`.
+  bool run_next(const Dyadic* until = nullptr);
 
   /// Audits all structures now, whatever AuditMode was chosen, and counts the audit. Within a step the
   /// structures settle first, and the audit is at a time between now and the next failure. Between steps
@@ -92,8 +90,8 @@ class Simulator {
   /// beads follow them from now on. The new curves may begin at other positions. All structures follow.
   /// Throws std::invalid_argument, and changes nothing, if a structure cannot follow.
   void change_motion(std::span<const BeadId> beads, const std::function<void()>& set_curves);
-  /// Makes an edit by `make` while time stands still, and settles the structures. Sets the edit's step and
-  /// time, and tells the listeners of it unless `make` throws before it changes anything.
+  /// Calls `make`, which edits structures while time stands still, then settles the structures. Sets the step
+  /// and time of `edit`. Notifies the listeners of the edit, unless `make` throws before any change.
   void make_edit(Edit& edit, const std::function<void()>& make);
   /// Throws std::invalid_argument unless a step is under way and nothing is happening: while an event is
   /// handled, and after a run that an exception ended.
@@ -154,7 +152,7 @@ class Simulator {
   void require(Phase phase, const char* what) const;
   /// Notifies the listeners of a change now. Kept out of line, because most runs have none.
   [[gnu::noinline]] void tell(std::size_t structure, const Change& change);
-  void tell(const Edit& edit);
+  void notify(const Edit& edit);
   /// Notifies the listeners of a change. `rounded` is asked for the time in certain digits if one of them
   /// prints it.
   void notify(std::size_t structure, const Change& change, const TimeBracket& bracket, DecidedBy decided_by,
@@ -162,7 +160,6 @@ class Simulator {
   /// Does work for the listeners, which is not counted as the run's own.
   template <class Work>
   auto for_listeners(const Work& work);
-  bool run_one_moment(const Dyadic* until);
   void hold_now();
   void begin_step();
   void start_step();

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/scene/scene.h"
 #include "structures/session/kinetic_run.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/output/result_json.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/frames/frame_stamp.h"
 #include "motions/scene/scene.h"
 #include "structures/necklace/necklace_tree.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "experiments/output/output_files.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/frames/frame_reader.h"
 #include "motions/scene/scene.h"
 #include "structures/session/kinetic_run.h"

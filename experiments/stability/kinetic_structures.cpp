@@ -10,7 +10,7 @@
 #include "experiments/program/timing.h"
 #include "experiments/stability/stability.h"
 #include "experiments/stability/stability_scenes.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/base/input_error.h"
 #include "structures/session/kinetic_run.h"
 #include "structures/session/structure_spec.h"

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "experiments/stability/stability.h"
+#include "kds/event_log.h"
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
 #include "motions/numbers/exact_number.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "kds/event_log.h"
+#include "kds/event.h"
 
 namespace kds {
 

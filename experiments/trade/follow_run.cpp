@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/base/interruption.h"
 #include "motions/numbers/exact_number.h"
 #include "structures/session/parallel_run.h"

@@ -11,7 +11,7 @@
 
 #include "experiments/run/load_scene.h"
 #include "experiments/run/run_scene.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/base/input_error.h"
 #include "motions/base/interruption.h"
 #include "structures/dual_complex/dual_topology.h"

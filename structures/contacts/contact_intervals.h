@@ -27,7 +27,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "certificates/exact/time_span.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "kds/simulator.h"
 #include "motions/frames/frame_stamp.h"
 #include "structures/necklace/bead_pairs.h"

@@ -8,7 +8,7 @@
 #include <ostream>
 #include <string>
 
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/scene/scene.h"
 
 namespace kds {
@@ -20,7 +20,7 @@ namespace kds {
 /// frames have times, `picoseconds` follows `upper`.
 ///
 /// - `frame` is the number of the frame with which the event's step begins.
-/// - `lower` and `upper` are the canonical bracket of the event's time in the step (kds/event_log.h).
+/// - `lower` and `upper` are the canonical bracket of the event's time in the step (kds/event.h).
 /// - `picoseconds` is the event's time, rounded; empty if its frames have none.
 /// - `node` is FIRST-LAST for an event of a hierarchy.
 /// - `beads` are the other beads that the event names, separated by spaces.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "certificates/exact/exact_time.h"
+#include "kds/event_log.h"
 #include "kds/kinetic_structure.h"
 #include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
@@ -384,13 +385,14 @@ void KineticRun::go_on_to(std::size_t step, double u) {
 }
 
 /// Makes an edit now, and keeps it for the case that the run goes back.
-void KineticRun::make(Edit edit) {
+void KineticRun::make_edit(Edit edit) {
   if (edit.kind == Edit::Kind::change) {
-    NewCourses courses(editable_motion(), edit.beads);
-    set_coordinates(courses, edit.beads, edit.points);  // if this throws, nothing has changed yet
-    courses.hold_back();
-    simulator().make_edit(
-        edit, [&] { simulator().change_motion(edit.beads, [&courses] { courses.set_for_good(); }); });
+    const auto set = [&edit](SceneMotion& motion) { set_coordinates(motion, edit.beads, edit.coordinates); };
+    {
+      TrialCourses trial(editable_motion(), edit.beads);
+      set(trial);  // if this throws, nothing has changed
+    }
+    simulator().make_edit(edit, [&] { simulator().change_motion(edit.beads, [&] { set(*scene_motion_); }); });
     for (const BeadId bead : edit.beads) {
       std::erase_if(bends_, [bead](const Bend& bend) { return bend.bead == bead; });
       bends_.push_back({bead, control_point(scene_motion_->ref(), bead, true)});
@@ -408,10 +410,15 @@ void KineticRun::repeat(const Edit& edit) {
   const auto repeated = [&] {
     run_to(edit.step);
     if (!within_) enter();
-    if (!edit.after_failure) simulator().run_until(edit.time);
-    while (edit.after_failure && simulator().run_next(edit.time)) {
+    if (edit.after_failure) {
+      ExactTime time(edit.time);
+      if (ExactTime::compare(time, simulator().now().exact()) < 0)
+        throw std::invalid_argument("the run is past the time of this edit");
+      while (simulator().run_next(&edit.time)) continue;
+    } else {
+      simulator().run_until(edit.time);
     }
-    make(edit);
+    make_edit(edit);
   };
   if (edit.where.empty()) return repeated();
   try {
@@ -437,23 +444,27 @@ SceneMotion& KineticRun::editable_motion() const {
   return *scene_motion_;
 }
 
-void KineticRun::insert(std::size_t structure, BeadId bead) { make({Edit::Kind::insert, structure, {bead}}); }
+void KineticRun::insert(std::size_t structure, BeadId bead) {
+  make_edit({Edit::Kind::insert, structure, {bead}});
+}
 
-void KineticRun::erase(std::size_t structure, BeadId bead) { make({Edit::Kind::erase, structure, {bead}}); }
+void KineticRun::erase(std::size_t structure, BeadId bead) {
+  make_edit({Edit::Kind::erase, structure, {bead}});
+}
 
 void KineticRun::change_motion(std::vector<BeadId> beads,
                                const std::function<void(SceneMotion&)>& set_curves) {
-  std::vector<double> points;
+  std::vector<double> coordinates;
   {
-    NewCourses courses(editable_motion(), beads);
-    set_curves(courses);
-    points = coordinates_of(courses, beads);
+    TrialCourses trial(editable_motion(), beads);
+    set_curves(trial);
+    coordinates = coordinates_of(trial, beads);
   }
-  change_motion(std::move(beads), std::move(points));
+  change_motion(std::move(beads), std::move(coordinates));
 }
 
-void KineticRun::change_motion(std::vector<BeadId> beads, std::vector<double> points) {
-  make({Edit::Kind::change, 0, std::move(beads), std::move(points)});
+void KineticRun::change_motion(std::vector<BeadId> beads, std::vector<double> coordinates) {
+  make_edit({Edit::Kind::change, 0, std::move(beads), std::move(coordinates)});
 }
 
 std::vector<Event> KineticRun::built(std::size_t structure) const {

@@ -7,7 +7,7 @@
 // - The run advances step by step, event by event, or to a given time; it can go back to an earlier time by
 //   replay.
 // - Beads can be inserted, erased and given other curves on the way.
-// - Listeners are notified of every event as it happens, in one record (kds/event_log.h).
+// - Listeners are notified of every event as it happens, in one record (kds/event.h).
 //
 // Times count steps: 2.25 is u = 0.25 of step 2, and frame k is the time k. Times are not rounded: a time
 // given as a double is reached exactly, and a run that stops at an event stands at the event's exact time.
@@ -189,11 +189,11 @@ class KineticRun {
   /// structures follow. If a structure cannot follow, std::invalid_argument names it, and nothing is changed.
   /// Over a motion that the user sets, use Simulator::change_motion instead.
   void change_motion(std::vector<BeadId> beads, const std::function<void(SceneMotion&)>& set_curves);
-  /// The same with all coordinates of the new curves, ordered by bead, control point and axis.
-  void change_motion(std::vector<BeadId> beads, std::vector<double> points);
-  /// Runs forward to the time of an edit of another run of these structures over this scene, and makes it
-  /// again. All edits before must have been repeated. Throws like the functions above; if the edit has a
-  /// `where`, throws InputError with it.
+  /// Overload that takes all coordinates of the new curves, ordered by bead, control point and axis.
+  void change_motion(std::vector<BeadId> beads, std::vector<double> coordinates);
+  /// Runs forward to the time of an edit and makes this edit. The edit comes from another run of these
+  /// structures over this scene. Repeat the edits of a run in their order. Throws like the functions above;
+  /// if the edit has a `where`, throws InputError with it.
   void repeat(const Edit& edit);
 
   // Results where the run stands. Structures are given by their indices.
@@ -242,7 +242,7 @@ class KineticRun {
   [[nodiscard]] std::uint64_t changes_made() const;
   void run_to(std::size_t step);
   void go_on_to(std::size_t step, double u);
-  void make(Edit edit);
+  void make_edit(Edit edit);
   [[nodiscard]] BeadEdits& editable(std::size_t structure) const;
   [[nodiscard]] SceneMotion& editable_motion() const;
   void check_bends() const;

@@ -400,9 +400,9 @@ void ParallelRun::run_step(KineticRun& run, std::size_t step) const {
   static_cast<void>(run.run_step());
 }
 
-/// Returns whether edits make the part that begins at this frame go on from the part before. New courses must
-/// end where the next step begins, which only the run that has them checks.
-bool ParallelRun::goes_on(std::size_t first) const {
+/// Returns whether edits force the part that begins at this frame to continue the run of the part before.
+/// Only that run checks that new courses end where the next step begins.
+bool ParallelRun::must_continue(std::size_t first) const {
   return std::any_of(edits_.begin(), edits_.end(), [first](const Edit& edit) {
     return edit.kind == Edit::Kind::change ? edit.step + 1 == first : edit.step < first;
   });
@@ -423,7 +423,7 @@ void ParallelRun::run_in_parts(const std::function<void(std::size_t)>& at_frame)
     while (next < steps && in_flight.size() < (in_vain ? 1 : 2 * threads_ + 1)) {
       in_flight.push_back(read_part(next));
       next = in_flight.back()->last;
-      if (in_vain || goes_on(in_flight.back()->first)) continue;
+      if (in_vain || must_continue(in_flight.back()->first)) continue;
       in_flight.back()->is_submitted = true;
       workers.submit(*in_flight.back());
     }

@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "kds/event_log.h"
 #include "kds/known_events.h"
 #include "structures/session/kinetic_run.h"
 
@@ -146,7 +147,7 @@ class ParallelRun {
   void run_uncut(const std::function<void(std::size_t)>& at_frame);
   void run_in_parts(const std::function<void(std::size_t)>& at_frame);
   void run_step(KineticRun& run, std::size_t step) const;
-  [[nodiscard]] bool goes_on(std::size_t first) const;
+  [[nodiscard]] bool must_continue(std::size_t first) const;
   [[nodiscard]] std::unique_ptr<Part> read_part(std::size_t first) const;
   void run_part(Part& part, std::unique_ptr<Worker> worker) const;
   void note_frame(Part& part, Worker& worker, std::size_t number) const;

@@ -21,7 +21,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "structures/session/kinetic_run.h"
 #include "structures/session/replay_layers.h"
 

@@ -103,35 +103,23 @@ void set_coordinates(SceneMotion& motion, std::span<const BeadId> beads, std::sp
       motion.ref());
 }
 
-NewCourses::NewCourses(SceneMotion& motion, std::vector<BeadId> beads)
+TrialCourses::TrialCourses(SceneMotion& motion, std::vector<BeadId> beads)
     : motion_(motion), beads_(std::move(beads)) {
   std::sort(beads_.begin(), beads_.end());
   old_ = coordinates_of(motion_, beads_);
 }
 
-NewCourses::~NewCourses() {
-  if (!for_good_) set_coordinates(motion_, beads_, old_);
-}
+TrialCourses::~TrialCourses() { set_coordinates(motion_, beads_, old_); }
 
-void NewCourses::load(std::size_t) {
+void TrialCourses::load(std::size_t) {
   throw std::logic_error("no step is loaded while beads are given other courses");
 }
 
-void NewCourses::set_coordinate(BeadId bead, int k, int axis, double value) {
+void TrialCourses::set_coordinate(BeadId bead, int k, int axis, double value) {
   if (!std::binary_search(beads_.begin(), beads_.end(), bead))
     throw std::invalid_argument(
         fmt::format("bead {} is given another course, and is none of those said to change theirs", bead));
   motion_.set_coordinate(bead, k, axis, value);
-}
-
-void NewCourses::hold_back() {
-  new_ = coordinates_of(motion_, beads_);
-  set_coordinates(motion_, beads_, old_);
-}
-
-void NewCourses::set_for_good() {
-  for_good_ = true;
-  set_coordinates(motion_, beads_, new_);
 }
 
 }  // namespace kds

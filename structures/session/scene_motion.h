@@ -34,19 +34,19 @@ class SceneMotion {
 /// Returns the coordinates of these beads, ordered by bead, control point and axis. Throws
 /// std::invalid_argument if a bead does not exist.
 [[nodiscard]] std::vector<double> coordinates_of(const SceneMotion& motion, std::span<const BeadId> beads);
-/// Sets them. Throws std::invalid_argument also if there are more or fewer numbers, or one is not finite.
+/// Sets the coordinates of these beads, in the order of coordinates_of. Throws std::invalid_argument if a
+/// bead does not exist, the count is wrong, or a number is not finite; the numbers before that one stay set.
 void set_coordinates(SceneMotion& motion, std::span<const BeadId> beads, std::span<const double> numbers);
 
-/// A view of a step's motion through which a user gives some beads other curves. The new curves are tried
-/// first: if any exception is thrown meanwhile, nothing has changed.
-class NewCourses final : public SceneMotion {
+/// A view of a step's motion, in which some beads are given other curves as a trial. The old curves are
+/// restored when the trial ends.
+class TrialCourses final : public SceneMotion {
  public:
   /// The motion must outlive this object. Throws std::invalid_argument if a bead does not exist.
-  NewCourses(SceneMotion& motion, std::vector<BeadId> beads);
-  NewCourses(const NewCourses&) = delete;
-  NewCourses& operator=(const NewCourses&) = delete;
-  /// Restores the old curves unless set_for_good was called.
-  ~NewCourses() override;
+  TrialCourses(SceneMotion& motion, std::vector<BeadId> beads);
+  TrialCourses(const TrialCourses&) = delete;
+  TrialCourses& operator=(const TrialCourses&) = delete;
+  ~TrialCourses() override;
 
   /// Throws std::logic_error, because no other step may be loaded now.
   void load(std::size_t step) override;
@@ -55,16 +55,10 @@ class NewCourses final : public SceneMotion {
   /// given.
   void set_coordinate(BeadId bead, int k, int axis, double value) override;
 
-  /// Takes the curves set so far as the new curves, and restores the old ones in the motion until
-  /// set_for_good.
-  void hold_back();
-  void set_for_good();
-
  private:
   SceneMotion& motion_;
   std::vector<BeadId> beads_;
-  std::vector<double> old_, new_;
-  bool for_good_ = false;
+  std::vector<double> old_;
 };
 
 }  // namespace kds

@@ -1,4 +1,4 @@
-#include "kds/event_log.h"
+#include "kds/event.h"
 
 #include <gtest/gtest.h>
 

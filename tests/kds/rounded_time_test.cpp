@@ -1,6 +1,6 @@
 // Tests times as listeners receive them: canonical brackets, and twelve digits, correctly rounded.
 
-#include "kds/event_log.h"
+#include "kds/event.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

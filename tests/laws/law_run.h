@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kds/event_log.h"
 #include "motions/base/input_error.h"
 #include "tests/laws/law_structures.h"
 

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "certificates/exact/exact_time.h"
+#include "kds/event_log.h"
 #include "kds/known_events.h"
 #include "motions/base/input_error.h"
 #include "structures/session/parallel_run.h"
@@ -160,9 +161,8 @@ class Subject {
         for (; next != log.end() && next->step == step; ++next)
           events.push_back({next->structure_index, next->lower, next->upper, next->change, "the run"});
         motion->load(step);
-        KnownEvents(simulator).replay_step(events, edits, [&](const Edit& edit) {
-          if (edit.kind == Edit::Kind::change) set_coordinates(*motion, edit.beads, edit.points);
-        });
+        KnownEvents(simulator).replay_step(
+            events, edits, [&](const Edit& edit) { set_coordinates(*motion, edit.beads, edit.coordinates); });
         outcome.add_dumps(structure->dump(step + 1));
       }
       simulator.finish();

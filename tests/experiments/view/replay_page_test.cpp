@@ -15,6 +15,7 @@
 
 #include "experiments/output/page_templates.h"
 #include "experiments/view/replay_columns.h"
+#include "kds/event_log.h"
 #include "motions/base/input_error.h"
 #include "motions/curves/bezier_motion.h"
 #include "motions/readers/instance.h"

@@ -1,6 +1,7 @@
 // Crossings of bonds, judged over whole numbers, by copies of a periodic cell, and by the linking number.
 
 #include "structures/crossings/crossings.h"
+#include "kds/event_log.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,5 @@
 #include "structures/dual_complex/dual_topology.h"
+#include "kds/event_log.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 #include <vector>
 
 #include "certificates/exact/exact_time.h"
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "motions/curves/bezier_motion.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "tests/structures/dual_complex/gudhi_betti.h"

@@ -5,6 +5,7 @@
 // - the events that listeners receive, and the files that writers make of the events
 
 #include "structures/session/kinetic_run.h"
+#include "kds/event_log.h"
 
 #include <gmock/gmock.h>
 

@@ -2,6 +2,7 @@
 // dumps and counts of an uncut KineticRun, also on degenerate scenes.
 
 #include "structures/session/parallel_run.h"
+#include "kds/event_log.h"
 
 #include <gtest/gtest.h>
 

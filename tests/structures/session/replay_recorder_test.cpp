@@ -4,6 +4,7 @@
 // - backward from the last frame, the state of each frame before, down to the initial one
 
 #include "structures/session/replay_recorder.h"
+#include "kds/event_log.h"
 
 #include <gmock/gmock.h>
 

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "kds/event_log.h"
+#include "kds/event.h"
 #include "structures/crossings/crossings.h"
 #include "tests/support/judges/impacts.h"
 #include "tests/support/text_of.h"
