@@ -9,7 +9,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const folder = process.argv[2] ?? join(here, "dist");
 
 // Each page with the libraries whose licences it must show.
-const pages = { replay: ["three"], report: ["@observablehq/plot"] };
+const pages = { replay: ["three"], report: ["@observablehq/plot", "d3", "isoformat"] };
 
 // Bundles one file, minified. JavaScript runs in browsers that have DecompressionStream.
 async function bundle(entry) {
