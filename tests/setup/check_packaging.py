@@ -79,6 +79,9 @@ for name, lowest in {"cmake": "cmake", "cgal": "CGAL", "flint": "KdsFlint"}.item
     expect(f"Spack takes an older {name} than {at_least[lowest]}", numbers[0] < numbers[1], False)
 expect("Python dependencies of conda-forge", recipe["requirements"]["run"], ["python", *python["project"]["dependencies"]])
 expect("Python dependencies of Debian", re.findall(r"python3-(\w+)", control[3]["Depends"]), python["project"]["dependencies"])
+extras = {name for names in python["project"]["optional-dependencies"].values() for name in names}
+needed = {name for file in (ROOT / "python" / "kds").glob("*.py") for name in re.findall(r'needed\("(\w+)', file.read_text())}
+expect("packages that Python imports on demand and pyproject.toml does not name", needed - extras, set())
 
 # Options and tests.
 files = [path for folder in ("packaging", ".github") for path in (ROOT / folder).rglob("*") if path.is_file()]
