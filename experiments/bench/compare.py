@@ -7,8 +7,8 @@
 
 With --machine, replaces the rows of the subjects in docs/measurements/NAME.csv. A missed goal is not an error.
 
-With --base, compares the program with another build of it, without peers, and prints the benchmarks whose times differ. If no
-time differs, a comparison prints a benchmark with probability 5% at most. The exit code is 1 if a benchmark became slower.
+With --base, compares the program with another build of it, without peers, and prints the benchmarks whose times differ. If both
+are equally fast, a comparison prints any benchmark with a probability of at most 5%. The exit code is 1 if one became slower.
 
 A benchmark is named SUBJECT/INPUT/N/MEASURE. One named "MEASURE beside PEER" is the peer of that measure, or of all measures of
 that input whose names start with MEASURE and which have no peer of their own. The rounds of all benchmarks of an input
@@ -35,7 +35,7 @@ ALARM = 0.05  # the probability that a comparison of equal programs finds a diff
 
 def matching(text):
     """Returns an extended regular expression of POSIX that matches the text."""
-    return re.sub(r"([][.()+*?{}|^$\\])", r"\\\1", text)
+    return re.sub(r"([.()\[+*?{|^$\\])", r"\\\1", text)  # `\]` and `\}` are not escapes
 
 
 def run(program, chosen, rounds, min_time):
@@ -47,7 +47,8 @@ def run(program, chosen, rounds, min_time):
                                f"--benchmark_min_time={min_time}", f"--benchmark_out={out}"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         if done.returncode != 0:
-            sys.exit(f"compare.py: {chosen}: {done.stderr.strip()}")
+            print(f"compare.py: {chosen}: {done.stderr.strip()}", file=sys.stderr)
+            sys.exit(2)
         with open(out, encoding="utf-8") as file:
             result = json.load(file)
     return [b for b in result["benchmarks"] if b["run_type"] == "iteration"], result["context"]
@@ -110,22 +111,22 @@ def check(subject, one, goals):
 
 def sign_test(slower, faster):
     """Returns the two-sided p-value of the sign test for the numbers of rounds in which the other program is slower and faster.
-    The value is exact if both are equally likely in each round, whatever the noise."""
+    The value is exact if each program is equally likely to be slower in a round, whatever the noise."""
     rounds = slower + faster
     return min(1, 2 * sum(math.comb(rounds, i) for i in range(min(slower, faster) + 1)) / 2**rounds)
 
 
-def find_moved(pairs, alarm=ALARM):
+def find_differences(pairs, alarm=ALARM):
     """Takes pairs of times of each benchmark, and returns the p-values of those that differ. If none differs, the result is
     empty with probability 1 - alarm at least (Holm's correction)."""
     values = sorted((sign_test(sum(base < other for base, other in times), sum(base > other for base, other in times)), name)
                     for name, times in pairs.items())
-    moved = {}
+    differing = {}
     for before, (value, name) in enumerate(values):
         if value > alarm / (len(values) - before):
             break
-        moved[name] = value
-    return moved
+        differing[name] = value
+    return differing
 
 
 def needed_rounds(benchmarks, exceptions):
@@ -134,8 +135,9 @@ def needed_rounds(benchmarks, exceptions):
 
 
 def measure_pairs(programs, groups, rounds, min_time):
-    """Returns the times of both programs in each round, and the unit of each benchmark. A coin is thrown for which program runs
-    first, so equal programs make each sign of a difference equally likely, even if the machine becomes slower meanwhile."""
+    """Returns the times of both programs in each round, and the unit of each benchmark. The order of the
+    programs is random in each round, so both signs of a difference are equally likely for equal programs, even if the machine
+    becomes slower meanwhile."""
     pairs = {name: [] for names in groups.values() for name in names}
     units = {}
     for _ in range(rounds):
@@ -152,15 +154,15 @@ def measure_pairs(programs, groups, rounds, min_time):
     return pairs, units
 
 
-def print_moved(pairs, units, rounds):
+def print_differences(pairs, units, rounds):
     """Prints the benchmarks that differ, slowest first, and returns whether one became slower."""
-    moved = find_moved(pairs)
-    rows = [(statistics.median(other / base for base, other in pairs[name]), name) for name in moved]
+    differing = find_differences(pairs)
+    rows = [(statistics.median(other / base for base, other in pairs[name]), name) for name in differing]
     print(f"{'ratio':>6} {'base':>10} {'other':>10} {'unit':12} {'p':8} benchmark")
     for ratio, name in sorted(rows, reverse=True):
         base, other = map(statistics.median, zip(*pairs[name]))
-        print(f"{ratio:6.3f} {base:10.4g} {other:10.4g} {units[name]:12} {moved[name]:<8.1g} {name}")
-    print(f"{len(moved)} of {len(pairs)} benchmarks differ in {rounds} rounds; false alarms in {ALARM:.0%} of runs at most")
+        print(f"{ratio:6.3f} {base:10.4g} {other:10.4g} {units[name]:12} {differing[name]:<8.1g} {name}")
+    print(f"{len(differing)} of {len(pairs)} benchmarks differ in {rounds} rounds; false alarms in {ALARM:.0%} of runs at most")
     return any(ratio > 1 for ratio, _ in rows)
 
 
@@ -203,7 +205,7 @@ def main():
         rounds = options.rounds or needed_rounds(count, exceptions=2)
         if rounds < needed_rounds(count, 0):
             parser.error(f"--rounds: {count} benchmarks need at least {needed_rounds(count, 0)} rounds")
-        sys.exit(int(print_moved(*measure_pairs(programs, groups, rounds, options.min_time), rounds)))
+        sys.exit(int(print_differences(*measure_pairs(programs, groups, rounds, options.min_time), rounds)))
     lines = []
     print(",".join(COLUMNS))
     writer = csv.DictWriter(sys.stdout, COLUMNS, restval="", lineterminator="\n")
