@@ -78,7 +78,6 @@ class ContactAnalysis(_Analysis):
 
     def _conclude(self):
         self.kds = self._run(contacts)
-        begun, ended = (np.sort(self.kds.intervals[f"{end}_frame"]) for end in ("begin", "end"))
-        count = np.searchsorted(begun, self.frames, side="right") - np.searchsorted(ended, self.frames)
+        count = np.asarray(self.kds.at_frames()[0].sum(axis=1)).ravel()
         self.results.update(times=self.times, timeseries=np.stack([self.frames, count], axis=1), contacts=self.kds.intervals,
                             lifetimes=self.kds.rows)

@@ -5,13 +5,12 @@ from numpy.polynomial import Polynomial
 
 from ._analyses import contacts
 from ._inputs import is_frames, is_path, is_paths
-from ._intervals import Intervals
-from ._options import InputError, check_names, number, takes
+from ._intervals import Intervals, union
+from ._options import INPUT, OF_FILES, InputError, check_names, number, takes
 from ._stepping import KineticRun
 
 _OF_BASES, _OF_ACIDS = ("NZ", "NE", "NH1", "NH2", "ND1", "NE2"), ("OD1", "OD2", "OE1", "OE2")
-_OPTIONS = ("start", "stop", "step", "radius", "units", "necklaces", "times", "topology", "select", "chain", "dt",
-            "until_damage", "unwrap", "no_periodic")
+_OPTIONS = [name for name in (*INPUT, *OF_FILES) if name not in ("velocities", "groups", "obstacle")]
 
 
 def _all_atoms(source, options):
@@ -30,6 +29,9 @@ def salt_bridges(source, *, cutoff=4.0, bases=("LYS", "ARG"), acids=("ASP", "GLU
     bridged while any two such atoms are within the ``cutoff``. Times are exact, as in :func:`kds.contacts`, whose options hold.
     """
     check_names(salt_bridges, options)
+    for name, residues in (("bases", bases), ("acids", acids)):
+        if isinstance(residues, str) or not residues:
+            raise InputError(f"{name}: is {residues!r}; expected names of residues, such as ('LYS', 'ARG')")
     options, is_files = _all_atoms(source, {"by": "residue", **options})
     form = "//*/({})/{}" if is_files else "resname {} and name {}"
     comma = "," if is_files else " "
@@ -55,16 +57,18 @@ class HydrogenBonds(Intervals):
 
 
 @takes("contacts", only=_OPTIONS)
-def hydrogen_bonds(source, *, distance=3.0, angle=150.0, hydrogens=None, acceptors=None, bond=1.2, **options):
+def hydrogen_bonds(source, *, distance=3.0, angle=150.0, hydrogens=None, heavy=None, bond=1.2, **options):
     """Finds hydrogen bonds between frames, by the distance of donor and acceptor and the angle donor-hydrogen-acceptor.
 
     A bond exists while the distance is at most ``distance`` (angstrom) and the angle at least ``angle`` (degrees, from 90).
-    Atoms move on straight lines between frames. Times at which the distance passes its limit are exact, to twelve digits. Times
-    at which the angle does so are approximate: they are roots of a polynomial of degree 4 in double precision, in the tests
-    within 1e-11 of a step. An angle that only touches its limit may count or not. Returns :class:`kds.HydrogenBonds`.
+    Atoms move on straight lines between frames. Times at which the distance passes its limit are the exact times, rounded to
+    doubles. Times at which the angle passes its limit are approximate: they are roots of a polynomial of degree 4, computed with
+    doubles. The tests allow 1e-11 of a step; slower angles have larger errors (1e-9 of a step if the vectors change by 1e-6 of
+    their length). An angle that only touches its limit may count or not. Returns :class:`kds.HydrogenBonds`.
 
-    ``hydrogens`` and ``acceptors`` are as ``groups`` of :func:`kds.contacts`. The defaults are all hydrogens, and all nitrogens
-    and oxygens. Each acceptor within ``bond`` of a hydrogen in the first frame is its donor. The input is read three times.
+    ``hydrogens`` and ``heavy`` are as ``groups`` of :func:`kds.contacts`. ``heavy`` are the atoms that may be donors or acceptors
+    (default: all nitrogens and oxygens). The donor of a hydrogen is the heavy atom within ``bond`` of it in the first frame. To
+    choose acceptors, filter the rows by ``second``. The input is read three times.
     """
     check_names(hydrogen_bonds, options)
     if not is_frames(source) or str(source).startswith("imd:"):
@@ -74,13 +78,15 @@ def hydrogen_bonds(source, *, distance=3.0, angle=150.0, hydrogens=None, accepto
         raise InputError(f"angle: is {angle}; expected degrees from 90 to less than 180")
     options, is_files = _all_atoms(source, options)
     hydrogens = ("//*/*/[H]" if is_files else "element H") if hydrogens is None else hydrogens
-    acceptors = ("//*/*/[N,O]" if is_files else "element N O") if acceptors is None else acceptors
-    bonds = contacts(source, cutoff=bond, groups=(hydrogens, acceptors), by="bead", **options).intervals
-    near = contacts(source, cutoff=distance, groups=(acceptors, acceptors), by="bead", **options)
+    heavy = ("//*/*/[N,O]" if is_files else "element N O") if heavy is None else heavy
+    run = KineticRun(source, structures="box", **{name: value for name, value in options.items() if name != "apart"})
+    _in_cell(run, distance + bond)
+    bonds = contacts(source, cutoff=bond, groups=(hydrogens, heavy), by="bead", **options).intervals
+    if not np.any(bonds["open_at_start"]):
+        raise InputError(f"bond: no hydrogen has a heavy atom within {bond} in the first frame; expected a longer bond")
+    near = contacts(source, cutoff=distance, groups=(heavy, heavy), by="bead", **options)
     of, atoms, donor_of = _triples(bonds, near, bond)
     begin, end = near._arrays["begin_step"][of], near._arrays["end_step"][of]
-    options.pop("apart")
-    run = KineticRun(source, structures="box", **options)
     found = []  # parts of steps in which a triple is bonded: triple, begin, end
     last = len(near.frame_numbers) - 1
     for step in range(last):
@@ -92,14 +98,14 @@ def hydrogen_bonds(source, *, distance=3.0, angle=150.0, hydrogens=None, accepto
                       for k in range(len(inside)) for first, second in _wide_parts(vectors[:, k], *spans[:, k], cosine)]
         run.step()
     stamps = [run._core.stamp(frame) for frame in range(last + 1)]
-    columns = _columns(sorted(found), atoms, near, stamps)
+    columns = _columns(found, atoms, near, stamps)
     return HydrogenBonds(columns, near.names, near.unit, near._start, near._length, donor_of)
 
 
 def _triples(bonds, near, bond):
-    """Returns, for each interval in which two acceptors are near and one has a hydrogen, the place of the interval in `near`
-    and the donor, hydrogen and acceptor. Returns the donor of each hydrogen too. `bonds` are intervals of hydrogens with
-    acceptors."""
+    """Returns the intervals in which two heavy atoms are near and one of them has a hydrogen: arrays of the index of the interval
+    in `near`, and of its donor, hydrogen and acceptor. Returns also the donor of each hydrogen. `bonds` are intervals of
+    hydrogens with heavy atoms."""
     first, second = near._arrays["first"].tolist(), near._arrays["second"].tolist()
     heavy, hydrogens_of, donor_of, triples = {*first, *second}, {}, {}, []
     at_start = np.asarray(bonds["open_at_start"])
@@ -119,18 +125,14 @@ def _triples(bonds, near, bond):
 
 
 def _columns(parts, atoms, near, stamps):
-    """Returns the arrays of Intervals for ascending parts (triple, begin, end). Parts that meet are one."""
-    joined = []
-    for triple, first, second in parts:
-        if joined and joined[-1][0] == triple and first <= joined[-1][2]:
-            joined[-1][2] = max(joined[-1][2], second)
-        else:
-            joined.append([triple, first, second])
-    triple, *ends = np.array(joined, float).reshape(-1, 3).T
-    columns = dict(zip(("first", "second"), (atom[triple.astype(int)] for atom in atoms[1:])))
-    for clock, readings in zip(("frame", "time") if near.unit == "ps" else ("frame",), zip(*stamps)):
-        columns.update({f"{side}_{clock}": np.interp(end, np.arange(len(stamps)), readings)
-                        for side, end in zip(("begin", "end"), ends)})
+    """Returns the arrays of Intervals for parts (triple, begin, end). Parts that meet are one."""
+    triple, begin, end = np.array(parts, float).reshape(-1, 3).T
+    first, last = union(triple, begin, end)
+    columns = dict(zip(("first", "second"), (atom[triple[first].astype(int)] for atom in atoms[1:])))
+    ends, clock = (begin[first], end[last]), "time" if near.unit == "ps" else "frame"
+    for reading, readings in zip(("frame", "time") if clock == "time" else ("frame",), zip(*stamps)):
+        columns.update({f"{side}_{reading}": np.interp(step, np.arange(len(stamps)), readings)
+                        for side, step in zip(("begin", "end"), ends)})
     columns.update(length=columns[f"end_{clock}"] - columns[f"begin_{clock}"], open_at_start=ends[0] == 0,
                    open_at_end=ends[1] == len(stamps) - 1, begin_step=ends[0], end_step=ends[1],
                    frame_numbers=near.frame_numbers)
@@ -140,17 +142,27 @@ def _columns(parts, atoms, near, stamps):
 def _vectors(run, atoms, middle, reach):
     """Returns the vectors from hydrogens to donors and to acceptors at both ends of the present step, (2, triples, 2, 3). In a
     cell, they are those of images that are nearest at the times `middle`. Longer vectors than `reach` are of no interest."""
-    points, cell = run.control_points(), run._core.cell_points()
+    points = run.control_points()
     donor, hydrogen, acceptor = (points[atom] for atom in atoms)
     vectors = np.stack([donor - hydrogen, acceptor - hydrogen])
-    if len(cell) == 0:
+    cell, across = _in_cell(run, reach)
+    if across is None:
         return vectors
-    across = np.linalg.pinv(cell.mean(axis=1))
-    if 2 * reach * np.linalg.norm(across, axis=0).max() >= 1:
-        raise InputError(f"distance: is with bond {reach:g}; expected less than half the width of the cell")
     share = middle[None, :, None]
     shifts = np.rint(((1 - share) * vectors[:, :, 0] + share * vectors[:, :, 1]) @ across)
     return vectors - np.einsum("ptk,kec->ptec", shifts, cell)
+
+
+def _in_cell(run, reach):
+    """Returns the control points of the cell's vectors in the present step, and the inverse of their mean, None without a cell.
+    Raises InputError if vectors as long as `reach` do not tell which image is nearest."""
+    cell = run._core.cell_points()
+    if len(cell) == 0:
+        return cell, None
+    across = np.linalg.pinv(cell.mean(axis=1))
+    if 2 * reach * np.linalg.norm(across, axis=0).max() >= 1:
+        raise InputError(f"distance: with bond it is {reach:g}; expected less than half the width of the cell")
+    return cell, across
 
 
 def _wide_parts(vectors, begin, end, cosine):

@@ -1,9 +1,21 @@
-"""Intervals of pairs in contact: at frames, joined by groups, as graphs, and the share of native contacts."""
+"""Intervals of pairs in contact: at frames, joined by labels, as graphs, and the fraction of native contacts."""
 
 import numpy as np
 
 from ._options import InputError
 from ._tables import Saved, needed, records, table
+
+
+def union(key, begin, end):
+    """Returns, for each run of intervals of one key that meet, ordered by key, the indices of one that begins first and of one
+    that ends last."""
+    runs = []
+    for k in np.lexsort((begin, key)).tolist():
+        if runs and key[k] == key[runs[-1][0]] and begin[k] <= end[runs[-1][1]]:
+            runs[-1][1] = k if end[k] > end[runs[-1][1]] else runs[-1][1]
+        else:
+            runs.append([k, k])
+    return np.array(runs, np.int64).reshape(-1, 2).T
 
 
 class Intervals(Saved):
@@ -32,9 +44,9 @@ class Intervals(Saved):
         """Returns which pairs are in contact at each frame: a sparse matrix of SciPy and the pairs of its columns.
 
         The matrix (frames, pairs) is a ``csr_matrix`` of truth values. Its rows belong to ``frame_numbers``. Its columns are
-        all pairs that are ever in contact, an array (pairs, 2) of elements. Contacts are decided exactly. A pair at the very
-        cutoff is in contact, unless it comes to the cutoff exactly at the last frame. An absence that ``gap`` bridges is no
-        absence here.
+        all pairs that are ever in contact, an array (pairs, 2) of elements. Contacts of :func:`kds.contacts` are decided exactly;
+        those of hydrogen bonds are as accurate as their ends. A pair at the very cutoff is in contact, unless it comes to the
+        cutoff exactly at the last frame. A pair counts as in contact during an absence that ``gap`` bridges.
         """
         sparse = needed("scipy.sparse", "sparse matrices")
         if self.frame_numbers is None:
@@ -47,32 +59,37 @@ class Intervals(Saved):
         return sparse.csr_matrix((np.ones(len(row), bool), (row, np.repeat(column, count))), shape=shape), pairs
 
     def _pairs(self):
-        """Returns the pairs that are ever in contact, ascending, and the place among them of the pair of each interval."""
+        """Returns the pairs that are ever in contact, ascending, and the index of each interval's pair among them."""
         size = len(self.names)
-        keys, place = np.unique(self._arrays["first"].astype(np.int64) * size + self._arrays["second"], return_inverse=True)
-        return np.stack([keys // size, keys % size], axis=1), place
+        keys, index = np.unique(self._arrays["first"].astype(np.int64) * size + self._arrays["second"], return_inverse=True)
+        return np.stack([keys // size, keys % size], axis=1), index
 
     def native(self, reference=None, at_frames=False):
-        """Returns the share Q of native contacts that are there, a table over time.
+        """Returns the fraction of native contacts Q(t), a table over time.
 
         Native pairs are those in contact at the frame ``reference`` (default: the first one), or an array (pairs, 2) of
         elements. Each pair counts 1 in contact and 0 otherwise. Rows are the first frame, all times at which a native
         contact begins or ends, and the last frame. ``fraction`` holds from a row to the next. With ``at_frames``, rows are
         the frames, and ``fraction`` is that at the frame.
         """
-        pairs, place = self._pairs()
+        pairs, of = self._pairs()
         if reference is None or np.ndim(reference) == 0:
-            matrix = self.at_frames()[0]
+            if self.frame_numbers is None:
+                raise InputError("reference: results that are read from a folder have no frames; expected pairs")
             frame = self.frame_numbers[0] if reference is None else reference
-            if frame not in self.frame_numbers:
+            at = np.flatnonzero(self.frame_numbers == frame)
+            if len(at) == 0:
                 raise InputError(f"reference: {reference} is no frame that was read; expected one from {self.frame_numbers[0]} "
                                  f"to {self.frame_numbers[-1]}")
-            chosen = matrix[np.searchsorted(self.frame_numbers, frame)].indices
-            count, wanted = len(chosen), np.isin(np.arange(len(pairs)), chosen)
+            there = (self._arrays["begin_step"] <= at[0]) & (self._arrays["end_step"] >= at[0])
+            wanted = np.isin(np.arange(len(pairs)), of[there])
+            count = wanted.sum()
         else:
             given = np.asarray(reference)
             if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":
                 raise InputError("reference: expected the number of a frame, or pairs of elements, an array (pairs, 2)")
+            if given.size and (given.min() < 0 or given.max() >= len(self.names) or (given[:, 0] == given[:, 1]).any()):
+                raise InputError(f"reference: expected pairs of two different elements from 0 to {len(self.names) - 1}")
             native = {tuple(sorted(pair)) for pair in given.tolist()}
             count, wanted = len(native), np.array([tuple(sorted(pair)) in native for pair in pairs.tolist()], bool)
         if count == 0:
@@ -80,7 +97,7 @@ class Intervals(Saved):
         if at_frames:
             inside = self.at_frames()[0][:, np.flatnonzero(wanted)]
             return table({"frame": self.frame_numbers, "fraction": np.asarray(inside.sum(axis=1)).ravel() / count})
-        clock, own = "time" if self.unit == "ps" else "frame", wanted[place]
+        clock, own = "time" if self.unit == "ps" else "frame", wanted[of]
         begin, end = (self._arrays[f"{side}_{clock}"][own] for side in ("begin", "end"))
         ended = end[~self._arrays["open_at_end"][own].astype(bool)]
         times = np.unique(np.concatenate([[self._start, self._start + self._length], begin, ended]))
@@ -88,17 +105,18 @@ class Intervals(Saved):
         return table({clock: times, "fraction": number / count})
 
     def joined(self, labels="residue"):
-        """Returns the contacts of groups of elements, :class:`kds.JoinedContacts`. Groups are in contact while any two of
-        their elements are.
+        """Returns the contacts of labels, :class:`kds.JoinedContacts`. Labels are in contact while any two of their beads are.
 
-        ``labels`` is a function that returns the group of a name, or a list with the group of each element, such as
+        ``labels`` gives each bead (or residue) a label: a function of its name, or a list, such as the chemical elements
         ``group.elements`` of an AtomGroup. The default takes the residue in names of beads.
         """
         if isinstance(labels, str) and labels == "residue":
             labels = [name.partition(" of ")[2] or name for name in self.names]
+        if isinstance(labels, str):
+            raise InputError(f"labels: is {labels!r}; expected 'residue', a function or a list")
         labels = [labels(name) for name in self.names] if callable(labels) else list(labels)
         if len(labels) != len(self.names):
-            raise InputError(f"labels: are {len(labels)}; expected {len(self.names)}, one for each element")
+            raise InputError(f"labels: are {len(labels)}; expected {len(self.names)}, one for each name")
         return JoinedContacts(self, [str(label) for label in labels])
 
     def to_networkx(self):
@@ -113,12 +131,12 @@ class Intervals(Saved):
 
     def _set_rows(self, **more):
         """Makes a row for each pair that is ever in contact, without confidence intervals, and the JSON."""
-        pairs, place = self._pairs()
+        pairs, of = self._pairs()
         label, length, is_open = np.array(self.names), self._arrays["length"], self._arrays["open_at_end"].astype(bool)
-        count, total = np.bincount(place, minlength=len(pairs)), np.bincount(place, length, len(pairs))
-        ends = np.bincount(place, ~is_open, len(pairs))
+        count, total = np.bincount(of, minlength=len(pairs)), np.bincount(of, length, len(pairs))
+        ends = np.bincount(of, ~is_open, len(pairs))
         longest = np.zeros(len(pairs))
-        np.maximum.at(longest, place, length)
+        np.maximum.at(longest, of, length)
         self.rows = table({"i": pairs[:, 0], "j": pairs[:, 1], "first": label[pairs[:, 0]], "second": label[pairs[:, 1]],
                            "contacts": count, "occupancy": total / self._length,
                            "residence": np.divide(total, ends, out=np.full(len(pairs), np.nan), where=ends > 0),
@@ -127,15 +145,15 @@ class Intervals(Saved):
 
 
 class JoinedContacts(Intervals):
-    """Contacts of groups of elements. Made by ``joined`` of results of contacts.
+    """Contacts of labels. Made by ``joined`` of results of contacts.
 
     ``rows``
-        one row for each pair of groups that is ever in contact, also of a group with itself: ``contacts``, ``occupancy``,
-        ``residence``, ``total`` and ``longest`` as in :class:`kds.Contacts`; ``pairs``, how many pairs of elements are ever in
-        contact; and ``mean_pairs``, how many are at a time, on average.
+        one row for each pair of labels that is ever in contact, also of a label with itself: ``contacts``, ``occupancy``,
+        ``residence``, ``total`` and ``longest`` as in :class:`kds.Contacts`; ``pairs``, how many pairs of beads are ever in
+        contact; and ``mean_pairs``, the mean number of these pairs in contact at one time.
     ``intervals``
-        the union of the intervals of these pairs. Times are compared as doubles, so absences that these do not show are
-        bridged.
+        the union of the intervals of these pairs. Two intervals become one if the end of the first and the beginning of the
+        second round to the same double (to the same 12 digits, if read from a folder).
     """
 
     def __init__(self, found, labels):
@@ -145,14 +163,7 @@ class JoinedContacts(Intervals):
         arrays = found._arrays
         low, high = np.sort([of[arrays["first"]], of[arrays["second"]]], axis=0)
         begin, end = (arrays.get(f"{side}_step", arrays[f"{side}_frame"]) for side in ("begin", "end"))
-        rows = {}  # for each pair of groups, lists of the first and the last of the intervals that are joined
-        for k in np.lexsort((begin, high, low)).tolist():
-            own = rows.setdefault((low[k], high[k]), [])
-            if own and begin[k] <= end[own[-1][1]]:
-                own[-1][1] = k if end[k] > end[own[-1][1]] else own[-1][1]
-            else:
-                own.append([k, k])
-        from_, to = np.array([one for own in rows.values() for one in own], np.int64).reshape(-1, 2).T
+        from_, to = union(low * len(names) + high, begin, end)
         clock = "time" if found.unit == "ps" else "frame"
         joined = {"first": low[from_], "second": high[from_]}
         joined.update({name: column[from_ if name.startswith("begin") or name == "open_at_start" else to]

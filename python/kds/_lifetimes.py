@@ -46,14 +46,12 @@ class Timeline:
 
     def __init__(self, found):
         rows, clock = found.intervals, "time" if found.unit == "ps" else "frame"
-        start = found.json["course"][0]["picoseconds" if found.unit == "ps" else "frame"]
-        self.length, self.pairs_asked = found.json["run_length"], found.all["pairs_asked"]
+        start, self.length, self.pairs_asked = found._start, found._length, found.all["pairs_asked"]
         first, second = np.asarray(rows["i"], np.int64), np.asarray(rows["j"], np.int64)
         order = np.lexsort((rows[f"begin_{clock}"], second, first))
         self.begin, self.end = (np.asarray(rows[f"{side}_{clock}"])[order] - start for side in ("begin", "end"))
         self.begun, self.ended = (~np.asarray(rows[f"open_at_{side}"])[order] for side in ("start", "end"))
-        pair = np.unique(first * len(found.names) + second, return_inverse=True)[1][order]
-        self.place = 2.0 * self.length * pair
+        self.place = 2.0 * self.length * found._pairs()[1][order]
         self.knots = np.stack([self.place + self.begin, self.place + self.end], axis=1).ravel()
         until = np.cumsum(self.end - self.begin)  # time in contact up to each end
         self.until = np.stack([np.append(0, until[:-1]), until], axis=1).ravel() if len(until) else np.empty(0)

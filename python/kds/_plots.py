@@ -2,15 +2,11 @@
 
 import numpy as np
 
+from ._tables import needed
+
 
 def _axes(ax):
-    if ax is not None:
-        return ax
-    try:
-        import matplotlib.pyplot as plt
-    except ImportError as error:
-        raise ImportError("plots need matplotlib; install it, or draw events and rows with another package") from error
-    return plt.subplots()[1]
+    return needed("matplotlib.pyplot", "plots").subplots()[1] if ax is None else ax
 
 
 def events(run, ax=None):

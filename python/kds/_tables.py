@@ -98,8 +98,9 @@ class Saved:
     def save(self, path, what="rows"):
         """Writes the result to a file, whose ending gives the format. A file of that name is replaced, whole or not at all.
 
-        ``.csv`` and ``.npz`` have the columns of a table: ``what`` names the attribute, such as "intervals". ``.json`` has all
-        numbers, as the attribute ``json``. ``.graphml`` has the graph of contacts; it needs networkx.
+        ``.csv`` and ``.npz`` have the columns of a table: ``what`` names the attribute, such as "intervals". ``.json`` has the
+        attribute ``json``, which is without the intervals for :func:`kds.contacts`: save these with ``save(path, "intervals")``.
+        ``.graphml`` has the graph of contacts; it needs networkx.
         """
         path = os.fspath(path)
         writers = {".csv": _csv_of, ".npz": _npz_of}
@@ -132,7 +133,7 @@ def _csv_of(columns):
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(columns)
-    writer.writerows(["" if value != value else value for value in row]
+    writer.writerows(["" if value != value else str(value).lower() if isinstance(value, bool) else value for value in row]
                      for row in zip(*(column.tolist() for column in columns.values())))
     return text.getvalue().encode()
 

@@ -8,6 +8,7 @@ import kds
 from data import universe
 
 try:
+    import MDAnalysis
     from MDAnalysis.analysis.base import AnalysisBase
     from MDAnalysis.lib.distances import self_distance_array
 except ImportError as error:
@@ -42,6 +43,13 @@ class Analyses(unittest.TestCase):
         counts = [np.sum(self_distance_array(self.group.positions)[apart] <= 8) for _ in self.group.universe.trajectory[:200:2]]
         np.testing.assert_array_equal(analysis.results.timeseries, np.stack([range(0, 200, 2), counts], axis=1))
         self.assertGreater(len(set(counts)), 5)
+
+    def test_times_next_to_a_frame_are_not_of_the_frame(self):
+        x = np.full((1003, 2, 3), [[0, 0, 0], [9, 0, 0]], np.float32)
+        x[1000:1002, 1, 0] = 5.0000005, -4091
+        pair = MDAnalysis.Universe.empty(2, trajectory=True).load_new(x).atoms
+        count = kds.ContactAnalysis(pair, cutoff=5, by="bead", apart=1).run().results.timeseries[:, 1]
+        np.testing.assert_array_equal(count, np.abs(x[:, 1, 0]) <= 5)
 
     def test_results_have_the_names_of_the_field(self):
         analysis = kds.ContactAnalysis(self.group, cutoff=8).run(start=5, stop=40)

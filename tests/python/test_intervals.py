@@ -63,6 +63,14 @@ class AtFrames(unittest.TestCase):
             inside = found.at_frames()[0].toarray()[:, 0]
             self.assertEqual(np.flatnonzero(inside).tolist(), np.flatnonzero(np.abs(x) <= 5).tolist())
 
+    def test_wrong_references_are_refused(self):
+        found = kds.contacts(self.positions, **self.options)
+        for pairs in ([[0, 9]], [[3, 3]], [[-1, 2]]):
+            with self.assertRaisesRegex(kds.InputError, "^reference: expected pairs of two different elements from 0 to 8$"):
+                found.native(pairs)
+        with self.assertRaisesRegex(kds.InputError, "^labels: is 'element'; expected 'residue', a function or a list$"):
+            found.joined("element")
+
     def test_native_contacts(self):
         found = kds.contacts(self.positions, **self.options)
         for reference in (None, 7):
@@ -110,7 +118,7 @@ class Joined(unittest.TestCase):
         self.assertEqual(kinds, {tuple(sorted((labels[i], labels[j]), key="NC".index))
                                  for i, j in zip(found.rows["i"], found.rows["j"])})
         self.assertEqual(len(found.joined(lambda name: "all").rows), 1)
-        with self.assertRaisesRegex(kds.InputError, "^labels: are 2; expected 30, one for each element$"):
+        with self.assertRaisesRegex(kds.InputError, "^labels: are 2; expected 30, one for each name$"):
             found.joined(["C", "N"])
 
 

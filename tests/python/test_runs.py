@@ -588,7 +588,7 @@ class Driving(unittest.TestCase):
             with self.assertRaisesRegex(kds.InputError, r"edited.kdslog:\d+: the lines of step 1 are not those"):
                 kds.replay(log)
             for source, more in ((self.positions, {}), (DCD, {"topology": PDB, "only": {"contacts": [1, 2, 3]}})):
-                with self.assertRaisesRegex(kds.InputError, "^log: a log names the files of its frames"):
+                with self.assertRaisesRegex(kds.InputError, "^log: needs a path as input and all beads"):
                     kds.KineticRun(source, radius=2, structures=["contacts"], log=log, **more)
 
     def test_structures_of_some_beads(self):
