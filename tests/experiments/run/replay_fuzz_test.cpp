@@ -380,7 +380,7 @@ TEST(EditedLogs, BadEditsAreRefusedInOneLine) {
   const std::vector<Bad> bad{
       {curve, joined(Lines(words.begin(), words.end() - 1)), curve + 1, "more or fewer coordinates than the"},
       {curve, with(1, "12"), curve, "bead 12 of 12"},
-      {curve, with(2, "nan"), change, "nan"},
+      {curve, with(2, "nan"), change, "a control point is not a finite number"},
       {curve, with(2, "1e999"), curve, "expected a coordinate, found '1e999'"},
       {curve, with(2, "0x1p+2"), curve, "expected a coordinate, found '0x1p+2'"},
       {change, "edit 1 at 0x1p-2 change 3", curve + 2, "expected 'curve', a bead and its control points"},
