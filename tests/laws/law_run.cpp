@@ -82,8 +82,8 @@ std::size_t bases_of(const StructureSpec& spec) {
 }
 
 bool is_accepted(const Scene& scene, const LawStructure& row) {
-  if (structure_registry().find(row.name)->refusal(scene)) return false;
   try {
+    if (structure_registry().find(row.name)->refusal(scene)) return false;
     static_cast<void>(KineticRun(scene, {{row.name}, Kernel::filtered, AuditMode::none, row.settings}));
   } catch (const InputError&) {  // too small weights, or no boxes with these directions in the plane
     return false;
