@@ -12,11 +12,13 @@
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/replay_labels.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
 #include "motions/base/interruption.h"
 #include "python/arrays.h"
 #include "structures/contacts/contacts.h"
 #include "structures/power_diagram/power_diagram.h"
+#include "structures/session/scene_motion.h"
 #include "structures/triangulation/diagram_edges.h"
 
 namespace kds::python {
@@ -237,7 +239,7 @@ void RunHandle::write_log(const std::string& path) {
   if (memory_ || !scene_ || scene_->is_live() || !only_.empty())
     throw InputError(
         "log: needs a path as input and all beads (no only), because a log names its input files");
-  if (log_) throw std::logic_error("write_log(): the run has a log already");
+  if (log_ || is_logged_) throw std::logic_error("write_log(): the run has a log already");
   check_output(options_, "log", path);
   log_.emplace(path, options_, *scene_, run_->structures(), /*edits=*/true);
   run_->listen(*log_);
@@ -283,7 +285,8 @@ void RunHandle::go_to(double time) {
 }
 
 void RunHandle::go(double time) {
-  if (log_ && run_->is_past(time)) throw InputError("frame: a run that writes a log cannot go back");
+  if ((log_ || is_logged_) && run_->is_past(time))
+    throw InputError("frame: a run that writes a log cannot go back");
   run_->go_to(time);
 }
 
@@ -294,6 +297,7 @@ void RunHandle::finish() {
   log_->end(run_->simulator().fingerprint());
   commit_together({&log_->file()});
   is_logged_ = true;
+  log_.reset();  // frees the path; a finished run has no more events
 }
 
 void RunHandle::audit() {
@@ -324,27 +328,41 @@ void RunHandle::bend(const std::vector<BeadId>& beads,
   run_->change_motion(beads, std::move(numbers));
 }
 
-py::array_t<double> RunHandle::control_points() {
+/// Reads the motion of the present step or, between two steps, that of the next. The structures then stand at
+/// the end of the step before, so the run's own motion stays as it is.
+template <class Read>
+py::array_t<double> RunHandle::of_step(const Read& read) {
   const Reserved reserved(*this);
-  if (!run_->load_step())
-    throw std::logic_error("control_points(): no step is known; push another frame first");
+  if (run_->within_step()) return read(*run_->motion());
+  const std::size_t step = run_->simulator().step();
+  if (!scene().has_step(step))
+    throw InputError("no step follows this frame; expected a frame before the last");
+  const FloatingPointScope to_nearest;
+  const auto next = make_scene_motion(scene());
+  next->load(step);
+  return read(*next);
+}
+
+py::array_t<double> RunHandle::control_points() {
   std::vector<BeadId> beads(scene().bead_count());
   std::iota(beads.begin(), beads.end(), BeadId{0});
-  return array_of(coordinates_of(*run_->motion(), beads),
-                  {static_cast<py::ssize_t>(beads.size()), scene().degree() + 1, scene().dimension()});
+  return of_step([&](const SceneMotion& motion) {
+    return array_of(coordinates_of(motion, beads),
+                    {static_cast<py::ssize_t>(beads.size()), scene().degree() + 1, scene().dimension()});
+  });
 }
 
 py::array_t<double> RunHandle::cell_points() {
-  const Reserved reserved(*this);
-  if (!run_->load_step()) throw std::logic_error("cell_points(): no step is known; push another frame first");
-  return std::visit(
-      []<int D>(const MotionRef<D>& motion) {
-        const Curves<D> curves = motion.curves();
-        const py::ssize_t vectors = curves.cell() == nullptr ? 0 : D, points = curves.own_degree() + 1;
-        std::vector<double> numbers(curves.cell(), curves.cell() + vectors * points * D);
-        return array_of(std::move(numbers), {vectors, points, D});
-      },
-      run_->motion()->ref());
+  return of_step([](const SceneMotion& motion) {
+    return std::visit(
+        []<int D>(const MotionRef<D>& ref) {
+          const Curves<D> curves = ref.curves();
+          const py::ssize_t vectors = curves.cell() == nullptr ? 0 : D, points = curves.own_degree() + 1;
+          std::vector<double> numbers(curves.cell(), curves.cell() + vectors * points * D);
+          return array_of(std::move(numbers), {vectors, points, D});
+        },
+        motion.ref());
+  });
 }
 
 double RunHandle::time() {

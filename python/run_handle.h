@@ -129,6 +129,8 @@ class RunHandle {
   /// Opens a run over `scene_` that stands at its start.
   void open();
   void listen();
+  template <class Read>
+  [[nodiscard]] pybind11::array_t<double> of_step(const Read& read);
   void go(double time);
   /// Opens the run on several threads, or returns null if it takes one. Keeps a warning that says why.
   [[nodiscard]] std::unique_ptr<ParallelRun> open_parts();

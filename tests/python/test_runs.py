@@ -561,6 +561,20 @@ class Driving(unittest.TestCase):
         self.assertFalse((run.power.edges() == 3).any())
         run.audit()
 
+    def test_looking_at_the_next_step_changes_nothing(self):
+        run = kds.KineticRun(np.random.default_rng(1).normal(size=(6, 8, 3)).cumsum(axis=0), radius=1.5, structures=["wrapped"])
+        run.go_to(2)
+        spheres = run.wrapped.spheres()
+        points = run.control_points()
+        self.assertEqual(points.shape, (8, 2, 3))
+        np.testing.assert_array_equal(run.wrapped.spheres(), spheres)
+        run.audit()
+        run.go_to(2.5)
+        np.testing.assert_array_equal(run.control_points(), points)
+        run.finish()
+        with self.assertRaisesRegex(kds.InputError, "^no step follows this frame"):
+            run.control_points()
+
     def test_edits_are_logged_and_replayed(self):
         with tempfile.TemporaryDirectory() as folder:
             log = os.path.join(folder, "edited.kdslog")
@@ -582,8 +596,14 @@ class Driving(unittest.TestCase):
             self.assertTrue(found["same"], found["difference"])
             self.assertEqual(found["logged_fingerprint"], run.fingerprint)
             self.assertTrue(program("replay", log)["replay"]["same"])
+            kds.KineticRun(DCD, log=log, **options).finish()  # takes the place of the first log
+            self.assertTrue(kds.replay(log)["same"])
+            run = kds.KineticRun(DCD, log=log, **options)
+            run.go_to(1.5)
+            run.erase("contacts", 3)
+            run.finish()
             text = Path(log).read_text()
-            self.assertEqual(text.count("\nedit "), 3)
+            self.assertEqual(text.count("\nedit "), 1)
             Path(log).write_text(text.replace("erase contacts 3", "erase contacts 4"))
             with self.assertRaisesRegex(kds.InputError, r"edited.kdslog:\d+: the lines of step 1 are not those"):
                 kds.replay(log)
