@@ -252,6 +252,7 @@ void EventLogReader::read_edit(std::string_view line) {
   std::size_t curves = 0;
   if (edit.kind == Edit::Kind::change) {
     curves = fields.number<std::size_t>("the number of beads");
+    if (curves == 0) fields.refuse("one bead or more", "0");
   } else {
     entry_.structure = fields.word("a structure");
     add_bead(edit, fields.number<BeadId>("a bead"));
