@@ -183,13 +183,16 @@ def main():
         parser.error("--machine does not go with --base")
     programs = [os.path.abspath(program) for program in (options.base, options.program) if program]
     for program in programs:
-        if not os.access(program, os.X_OK):
+        if not os.access(program, os.X_OK) or os.path.isdir(program):
             parser.error(f"{program}: expected the program kds_bench, which -DKDS_BENCHMARKS=ON builds")
     with open(os.path.join(HERE, "goals.csv"), encoding="utf-8") as file:
         goals = list(csv.DictReader(file))
     listed = []
     for program in programs:
-        names = subprocess.run([program, "--benchmark_list_tests"], check=True, capture_output=True, text=True).stdout
+        done = subprocess.run([program, "--benchmark_list_tests"], capture_output=True, text=True)
+        if done.returncode != 0 or not done.stdout:
+            parser.error(f"{program}: lists no benchmarks; expected the program kds_bench")
+        names = done.stdout
         listed.append([name for name in names.splitlines() if name.split("/")[0] in (options.subjects or name)
                        and re.search(options.only, "/".join(name.split("/")[:3])) and not (options.base and "beside " in name)])
     groups = {}
