@@ -7,7 +7,8 @@
 #include <string>
 
 /// Prints the compressibility factor Z = pV / NkT and its standard error, from 20 parts of the run.
-static void measure(int side, double packing, std::size_t collisions) {
+static void measure(int side, double packing, int collisions) {
+  if (collisions < 1) throw std::invalid_argument("the number of collisions: expected 1 or more");
   constexpr int parts = 20;
   HardSpheres balls(side, packing, 0.05);
   const double energy = balls.energy(), n = static_cast<double>(balls.count());
@@ -18,7 +19,7 @@ static void measure(int side, double packing, std::size_t collisions) {
   for (int part = 1; part <= parts; ++part) {
     const double virial = balls.virial, time = balls.time;
     do balls.step();
-    while (balls.collisions < melted + collisions * part / parts);
+    while (balls.collisions < melted + std::size_t{1} * collisions * part / parts);
     // The energy is 3/2 (N - 1) kT, because the sum of all momenta is 0.
     const double z = 1 + (n - 1) / n * (balls.virial - virial) / (2 * energy * (balls.time - time));
     sum += z;
@@ -31,14 +32,13 @@ static void measure(int side, double packing, std::size_t collisions) {
               balls.count(), balls.collisions, balls.energy() / energy - 1, balls.simulator().fingerprint());
   std::printf("Z = %.4f, standard error %.4f, Carnahan-Starling %.4f\n", mean,
               std::sqrt((squares / parts - mean * mean) / (parts - 1)), known);
-  std::printf("%.0f collisions per second of processor time\n",
-              static_cast<double>(balls.collisions) / seconds);
+  std::printf("%.0f collisions per second of processor time\n", balls.collisions / seconds);
 }
 
 int main(int argc, char** argv) {
   try {
     measure(argc > 1 ? std::stoi(argv[1]) : 4, argc > 2 ? std::stod(argv[2]) : 0.3,
-            argc > 3 ? std::stoul(argv[3]) : 4000);
+            argc > 3 ? std::stoi(argv[3]) : 4000);
   } catch (const std::exception& error) {
     std::fprintf(stderr,
                  "hard_spheres: %s\nusage: hard_spheres [CELLS [PACKING [COLLISIONS]]], such as 4 0.3 4000\n",
