@@ -10,7 +10,7 @@ class Kds(CMakePackage):
 
     homepage = "https://github.com/FILL_OWNER/kds"
     url = "https://github.com/FILL_OWNER/kds/archive/refs/tags/v0.1.0.tar.gz"
-    maintainers("FILL_OWNER")
+    maintainers("FILL_ACCOUNT")
     license("GPL-3.0-or-later")
 
     version("0.1.0", sha256="FILL_SHA256")
