@@ -1,5 +1,7 @@
 """Salt bridges and hydrogen bonds, from contacts of chosen atoms."""
 
+import re
+
 import numpy as np
 from numpy.polynomial import Polynomial
 
@@ -26,18 +28,26 @@ def salt_bridges(source, *, cutoff=4.0, bases=("LYS", "ARG"), acids=("ASP", "GLU
     The input names atoms and residues: files, an AtomGroup or an mdtraj Trajectory. ``bases`` and ``acids`` are names of
     residues; add charged histidine as the force field names it, such as "HSP" or "HIP". Nitrogens are NZ, NE, NH1, NH2, ND1 and
     NE2, oxygens OD1, OD2, OE1 and OE2. Returns :class:`kds.Contacts`, by residue unless ``by`` says otherwise: two residues are
-    bridged while any two such atoms are within the ``cutoff``. Times are exact, as in :func:`kds.contacts`, whose options hold.
+    bridged while any two such atoms are within the ``cutoff``, also neighbours (``apart`` is 1). Times are exact, as in :func:`kds.contacts`, whose options hold.
     """
     check_names(salt_bridges, options)
     for name, residues in (("bases", bases), ("acids", acids)):
-        if isinstance(residues, str) or not residues:
+        if not isinstance(residues, (list, tuple)) or not residues or not all(isinstance(one, str) for one in residues):
             raise InputError(f"{name}: is {residues!r}; expected names of residues, such as ('LYS', 'ARG')")
     options, is_files = _all_atoms(source, {"by": "residue", **options})
     form = "//*/({})/{}" if is_files else "resname {} and name {}"
     comma = "," if is_files else " "
     groups = [form.format(comma.join(residues), comma.join(atoms))
               for residues, atoms in ((bases, _OF_BASES), (acids, _OF_ACIDS))]
-    return contacts(source, cutoff=cutoff, groups=groups, verbose=verbose, **options)
+    return _of_groups("bases, acids", source, cutoff=cutoff, groups=groups, verbose=verbose, **options)
+
+
+def _of_groups(names, source, **options):
+    """Finds contacts of groups. An error about groups names the arguments that they come from."""
+    try:
+        return contacts(source, **options)
+    except InputError as error:
+        raise InputError(re.sub("^(groups|group [01])", names, str(error))) from None
 
 
 class HydrogenBonds(Intervals):
@@ -73,18 +83,21 @@ def hydrogen_bonds(source, *, distance=3.0, angle=150.0, hydrogens=None, heavy=N
     check_names(hydrogen_bonds, options)
     if not is_frames(source) or str(source).startswith("imd:"):
         raise InputError("hydrogen_bonds: reads the frames three times; expected files, an array, an AtomGroup or mdtraj")
+    distance, bond = number("distance", distance), number("bond", bond)
+    if not distance >= 2 * bond > 0:
+        raise InputError(f"distance: is {distance}; expected at least twice bond, {2 * bond}")
     cosine = np.cos(np.radians(number("angle", angle)))
     if not 90 <= angle < 180:
         raise InputError(f"angle: is {angle}; expected degrees from 90 to less than 180")
-    options, is_files = _all_atoms(source, options)
+    options, is_files = _all_atoms(source, {"radius": 1, **options})  # distances are those of centers
     hydrogens = ("//*/*/[H]" if is_files else "element H") if hydrogens is None else hydrogens
     heavy = ("//*/*/[N,O]" if is_files else "element N O") if heavy is None else heavy
     run = KineticRun(source, structures="box", **{name: value for name, value in options.items() if name != "apart"})
     _in_cell(run, distance + bond)
-    bonds = contacts(source, cutoff=bond, groups=(hydrogens, heavy), by="bead", **options).intervals
+    bonds = _of_groups("hydrogens, heavy", source, cutoff=bond, groups=(hydrogens, heavy), by="bead", **options).intervals
     if not np.any(bonds["open_at_start"]):
         raise InputError(f"bond: no hydrogen has a heavy atom within {bond} in the first frame; expected a longer bond")
-    near = contacts(source, cutoff=distance, groups=(heavy, heavy), by="bead", **options)
+    near = _of_groups("heavy", source, cutoff=distance, groups=(heavy, heavy), by="bead", **options)
     of, atoms, donor_of = _triples(bonds, near, bond)
     begin, end = near._arrays["begin_step"][of], near._arrays["end_step"][of]
     found = []  # parts of steps in which a triple is bonded: triple, begin, end
@@ -165,13 +178,19 @@ def _in_cell(run, reach):
     return cell, across
 
 
+def _trimmed(polynomial):
+    """Leaves out the highest terms that vanish beside the others from 0 to 1. Their roots would be out of range."""
+    return polynomial.trim(1e-100 * np.abs(polynomial.coef).max())
+
+
 def _wide_parts(vectors, begin, end, cosine):
     """Returns the parts of a step from `begin` to `end` in which the angle of two vectors, linear in time, has at most this
     cosine, which is not positive."""
+    vectors = vectors / np.maximum(np.abs(vectors).max(axis=(1, 2), keepdims=True), np.finfo(float).tiny)  # no overflow
     u, v = np.stack([vectors[:, 0], vectors[:, 1] - vectors[:, 0]], axis=1)  # for each its value at 0 and its velocity
     dot, uu, vv = (Polynomial([a[0] @ b[0], a[0] @ b[1] + a[1] @ b[0], a[1] @ b[1]]) for a, b in ((u, v), (u, u), (v, v)))
     excess = dot * dot - cosine * cosine * uu * vv
-    cuts = np.real(np.concatenate([excess.roots(), dot.roots()]))
+    cuts = np.real(np.concatenate([_trimmed(excess).roots(), _trimmed(dot).roots()]))
     ends = [begin, *np.sort(cuts[(cuts > begin) & (cuts < end)]), end]
     parts = [(float(first), float(second), (first + second) / 2) for first, second in zip(ends, ends[1:])]
     return [(first, second) for first, second, middle in parts if dot(middle) <= cosine * np.sqrt(uu(middle) * vv(middle))]

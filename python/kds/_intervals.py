@@ -68,11 +68,14 @@ class Intervals(Saved):
         """Returns the fraction of native contacts Q(t), a table over time.
 
         Native pairs are those in contact at the frame ``reference`` (default: the first one), or an array (pairs, 2) of
-        elements. Each pair counts 1 in contact and 0 otherwise. Rows are the first frame, all times at which a native
+        elements, among those that were asked for (``apart``, ``groups``), because others are never in contact here. Each pair
+        counts 1 in contact and 0 otherwise. Rows are the first frame, all times at which a native
         contact begins or ends, and the last frame. ``fraction`` holds from a row to the next. With ``at_frames``, rows are
         the frames, and ``fraction`` is that at the frame.
         """
         pairs, of = self._pairs()
+        if isinstance(reference, (bool, np.bool_)):
+            raise InputError(f"reference: is {reference}; expected the number of a frame, or pairs")
         if reference is None or np.ndim(reference) == 0:
             if self.frame_numbers is None:
                 raise InputError("reference: results that are read from a folder have no frames; expected pairs")
@@ -112,7 +115,7 @@ class Intervals(Saved):
         """
         if isinstance(labels, str) and labels == "residue":
             labels = [name.partition(" of ")[2] or name for name in self.names]
-        if isinstance(labels, str):
+        if isinstance(labels, str) or not (callable(labels) or hasattr(labels, "__len__")):
             raise InputError(f"labels: is {labels!r}; expected 'residue', a function or a list")
         labels = [labels(name) for name in self.names] if callable(labels) else list(labels)
         if len(labels) != len(self.names):
@@ -121,7 +124,7 @@ class Intervals(Saved):
 
     def to_networkx(self):
         """Returns a Graph of networkx. Nodes are elements with their ``name``. Edges are the rows: ``occupancy``, the number of
-        ``contacts``, and ``residence``, the mean life, unless it is not known."""
+        ``contacts``, and ``residence``, the mean life; edges whose contacts do not end have no ``residence``."""
         graph = needed("networkx", "graphs").Graph(unit=self.unit)
         graph.add_nodes_from((k, {"name": name}) for k, name in enumerate(self.names))
         for row in records(self.rows):

@@ -5,6 +5,7 @@ import importlib
 import io
 import json
 import os
+import tempfile
 
 import numpy as np
 
@@ -108,6 +109,8 @@ class Saved:
         endings = [*writers, ".json", *([".graphml"] if hasattr(self, "to_networkx") else [])]
         if ending not in endings:
             raise InputError(f"{path}: cannot tell the format from the ending; expected {', '.join(endings)}")
+        if ending in (".json", ".graphml") and what != "rows":
+            raise InputError(f"what: is {what!r}; {ending} has no single table, expected .csv or .npz for one")
         if ending == ".json":
             content = json.dumps(self.json, indent=1, allow_nan=False).encode()
         elif ending == ".graphml":
@@ -118,15 +121,26 @@ class Saved:
             if what not in tables:
                 raise InputError(f"what: is {what!r}; expected {', '.join(tables)}")
             content = writers[ending](columns_of(getattr(self, what)))
-        part = f"{path}.part"
-        try:
-            with open(part, "wb") as file:
-                file.write(content)
-            os.replace(part, path)
-        except OSError as error:
-            if os.path.exists(part):
-                os.remove(part)
-            raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+        _replace_file(path, content)
+
+
+def _replace_file(path, content):
+    """Writes a new file beside the old one and takes its place, so the old one stays whole if anything fails."""
+    part = None
+    try:
+        handle, part = tempfile.mkstemp(prefix=f".{os.path.basename(path)}.", dir=os.path.dirname(path) or ".")
+        with open(handle, "wb") as file:
+            file.write(content)
+        umask = os.umask(0)
+        os.umask(umask)
+        os.chmod(part, os.stat(path).st_mode & 0o777 if os.path.exists(path) else 0o666 & ~umask)
+        os.replace(part, path)
+        part = None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+    finally:
+        if part is not None:
+            os.remove(part)
 
 
 def _csv_of(columns):

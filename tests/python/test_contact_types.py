@@ -89,6 +89,13 @@ class HydrogenBonds(unittest.TestCase):
             self.assertEqual(found.frame_numbers.tolist(), list(range(5)))
             self.assert_exact(found, positions, {6: 0, 7: 1, 8: 2}, range(6), 40, distance, angle)
 
+    def test_slow_motions_do_not_overflow(self):
+        for size in (1, 1e-80, 1e-160):
+            positions = np.array([[[0, 1, 0], [0, 0, 0], [0, -1.5, 0.2]]] * 2) + np.array([0, size])[:, None, None]
+            positions[1, 1, 0] -= 2 * size
+            found = kds.hydrogen_bonds(positions, hydrogens=[1], heavy=[0, 2])
+            self.assertEqual(len(found.intervals), 1)
+
     def test_those_of_a_protein(self):
         positions, names = atoms_of(TRP_CAGE)
         found = kds.hydrogen_bonds(TRP_CAGE, stop=8)
@@ -121,7 +128,8 @@ class HydrogenBonds(unittest.TestCase):
 
     def test_wrong_input(self):
         for given, message in (({"angle": 80}, "^angle: is 80; expected degrees from 90 to less than 180$"),
-                               ({"hydrogens": [90]}, "^groups: expected indices"),
+                               ({"hydrogens": [90]}, "^hydrogens, heavy: expected indices"),
+                               ({"distance": 2}, "^distance: is 2.0; expected at least twice bond, 2.4$"),
                                ({"bond": 0.1}, "^bond: no hydrogen has a heavy atom within 0.1 in the first frame; expected"),
                                ({"bond": 3}, "^bond: bead 1 has two donors within 3 in the first frame; expected a shorter")):
             with self.assertRaisesRegex(kds.InputError, message):
@@ -129,6 +137,8 @@ class HydrogenBonds(unittest.TestCase):
         for wrong in ({"bases": "LYS"}, {"acids": ()}):
             with self.assertRaisesRegex(kds.InputError, "^(bases|acids): is .*; expected names of residues, such as"):
                 kds.salt_bridges(TRP_CAGE, **wrong)
+        with self.assertRaisesRegex(kds.InputError, "^hydrogens, heavy: '//.*' chooses none"):
+            kds.hydrogen_bonds(TRP_CAGE, hydrogens="//*/*/[XE]")
         with self.assertRaisesRegex(kds.InputError, "^distance: with bond it is 14.2; expected less than half the width"):
             kds.hydrogen_bonds(WATER, distance=13, stop=2, **IN_A_CELL)
         for source in (iter(coil()), "imd://localhost:9"):
