@@ -1,4 +1,4 @@
-// The corpus of the fuzzer of kernels, and the minimiser on a structure whose audits fail.
+// The corpus of the fuzzer of kernels, and the minimizer on a structure whose audits fail.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -184,7 +184,7 @@ std::vector<std::string> write_scene(const SmallScene& small, const std::string&
     for (std::size_t i = 0; i < necklaces.size(); ++i) {
       const std::string ending = fmt::format(".{}.xyz", i);
       std::ofstream file = add(ending);
-      write_xyz(file, necklaces[i], "a minimised scene");
+      write_xyz(file, necklaces[i], "a minimized scene");
       arguments.push_back(prefix + ending);
     }
     std::ofstream file = add(".radii");
