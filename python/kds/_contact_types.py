@@ -85,7 +85,7 @@ def hydrogen_bonds(source, *, distance=3.0, angle=150.0, hydrogens=None, heavy=N
         raise InputError("hydrogen_bonds: reads the frames three times; expected files, an array, an AtomGroup or mdtraj")
     distance, bond = number("distance", distance), number("bond", bond)
     if not distance >= 2 * bond > 0:
-        raise InputError(f"distance: is {distance}; expected at least twice bond, {2 * bond}")
+        raise InputError(f"distance: is {distance:g}; expected at least twice bond, {2 * bond:g}")
     cosine = np.cos(np.radians(number("angle", angle)))
     if not 90 <= angle < 180:
         raise InputError(f"angle: is {angle}; expected degrees from 90 to less than 180")
@@ -96,7 +96,7 @@ def hydrogen_bonds(source, *, distance=3.0, angle=150.0, hydrogens=None, heavy=N
     _in_cell(run, distance + bond)
     bonds = _of_groups("hydrogens, heavy", source, cutoff=bond, groups=(hydrogens, heavy), by="bead", **options).intervals
     if not np.any(bonds["open_at_start"]):
-        raise InputError(f"bond: no hydrogen has a heavy atom within {bond} in the first frame; expected a longer bond")
+        raise InputError(f"bond: no hydrogen has a heavy atom within {bond:g} in the first frame; expected a longer bond")
     near = _of_groups("heavy", source, cutoff=distance, groups=(heavy, heavy), by="bead", **options)
     of, atoms, donor_of = _triples(bonds, near, bond)
     begin, end = near._arrays["begin_step"][of], near._arrays["end_step"][of]
@@ -126,7 +126,7 @@ def _triples(bonds, near, bond):
         for donor, hydrogen in (pair, pair[::-1]):
             if donor in heavy:
                 if hydrogen in donor_of:
-                    raise InputError(f"bond: {near.names[hydrogen]} has two donors within {bond} in the first frame; expected "
+                    raise InputError(f"bond: {near.names[hydrogen]} has two donors within {bond:g} in the first frame; expected "
                                      "a shorter bond")
                 hydrogens_of.setdefault(donor, []).append(hydrogen)
                 donor_of[hydrogen] = donor

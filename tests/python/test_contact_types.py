@@ -129,9 +129,9 @@ class HydrogenBonds(unittest.TestCase):
     def test_wrong_input(self):
         for given, message in (({"angle": 80}, "^angle: is 80; expected degrees from 90 to less than 180$"),
                                ({"hydrogens": [90]}, "^hydrogens, heavy: expected indices"),
-                               ({"distance": 2}, "^distance: is 2.0; expected at least twice bond, 2.4$"),
+                               ({"distance": 2}, "^distance: is 2; expected at least twice bond, 2.4$"),
                                ({"bond": 0.1}, "^bond: no hydrogen has a heavy atom within 0.1 in the first frame; expected"),
-                               ({"bond": 3}, "^bond: bead 1 has two donors within 3 in the first frame; expected a shorter")):
+                               ({"bond": 3, "distance": 6}, "^bond: bead 1 has two donors within 3 in the first frame")):
             with self.assertRaisesRegex(kds.InputError, message):
                 kds.hydrogen_bonds(coil(), **{"hydrogens": [1], "heavy": [0, 2], **given})
         for wrong in ({"bases": "LYS"}, {"acids": ()}):
