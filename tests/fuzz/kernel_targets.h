@@ -1,5 +1,5 @@
 #pragma once
-// What the fuzzer of kernels compares, one target each.
+// The targets of the fuzzer of kernels. Each of them judges a run of a small scene.
 
 #include <cstdint>
 #include <optional>
